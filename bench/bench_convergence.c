@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 
 enum { MOST = 12 };
 

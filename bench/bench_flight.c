@@ -6,9 +6,9 @@
 #include <string.h>
 #include <time.h>
 
+#include "flight/flight_lanes.h"
 #include "scenario/scenario.h"
-#include "simulation/flight_lanes.h"
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 
 enum { REPEATS = 101, EVALUATIONS = 20000 };
 

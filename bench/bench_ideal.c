@@ -5,11 +5,11 @@
 #include <math.h>
 
 #include "bench_sample.h"
+#include "integration/integrator.h"
 #include "launchdyn/history.h"
 #include "launchdyn/simulation.h"
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/integrator.h"
-#include "simulation/summary.h"
 
 enum { REPEATS = 9, MOST = 200, MOST_MODES = 100 };
 

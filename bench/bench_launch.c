@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "bench_sample.h"
+#include "launch/launch_run.h"
 #include "scenario/scenario.h"
-#include "simulation/launch_run.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
 

@@ -2,8 +2,8 @@
 // velocity and acceleration; of a measured motion.
 #include "bench_sample.h"
 #include "scenario/scenario.h"
-#include "systems/motion_table.h"
-#include "systems/sea_motion.h"
+#include "systems/bases/motion_table.h"
+#include "systems/bases/sea_motion.h"
 
 enum { REPEATS = 15, STEPS = 20000 };
 

@@ -8,10 +8,10 @@
 
 #include "bench_sample.h"
 #include "bench_scratch.h"
+#include "flight/flight_lanes.h"
 #include "launchdyn/study.h"
-#include "simulation/flight_lanes.h"
-#include "simulation/simulation.h"
-#include "studies/worker.h"
+#include "state/simulation.h"
+#include "studies/run/worker.h"
 
 enum { PASSES = 3, MOST_SAMPLES = 2000 };
 

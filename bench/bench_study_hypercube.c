@@ -10,8 +10,8 @@
 #include "bench_sample.h"
 #include "bench_scratch.h"
 #include "launchdyn/study.h"
-#include "studies/statistics.h"
-#include "studies/study_data.h"
+#include "studies/statistics/statistics.h"
+#include "studies/store/study_data.h"
 
 static const char scenario[] = "include: %s\n"
                                "firing: [{tube: 8, at: 0 s}]\n"

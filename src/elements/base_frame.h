@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_BASE_FRAME_H
 #define LD_ELEMENTS_BASE_FRAME_H
 
-#include "math/quaternion.h"
+#include "math/vectors/quaternion.h"
 
 // Frame T of the undeformed tube: origin at its rear end, x along it; all vectors in I.
 typedef struct base_frame {

@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
-#include "elements/aerodynamics.h"
+#include "elements/air/aerodynamics.h"
 #include "elements/base_frame.h"
-#include "elements/flexible_tube.h"
 #include "elements/guide_forces.h"
 #include "elements/motor.h"
-#include "elements/work.h"
+#include "elements/tube/flexible_tube.h"
+#include "elements/tube/work.h"
 
 enum { LD_MAX_MODAL = 2 * LD_NB + LD_NT + LD_NA };
 

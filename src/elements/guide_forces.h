@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_GUIDE_FORCES_H
 #define LD_ELEMENTS_GUIDE_FORCES_H
 
-#include "math/mat3.h"
+#include "math/vectors/mat3.h"
 #include "model/model.h"
 
 typedef struct guide_wrench {

@@ -3,7 +3,7 @@
 #define LD_ELEMENTS_HELD_FRAME_H
 
 #include "elements/base_frame.h"
-#include "math/rotation_vector.h"
+#include "math/vectors/rotation_vector.h"
 
 // As it was last told; it goes on with the acceleration that its last two velocities tell.
 typedef struct held_frame {

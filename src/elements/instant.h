@@ -8,7 +8,7 @@
 
 #include "elements/exchange.h"
 #include "math/lanes.h"
-#include "math/rotation_vector.h"
+#include "math/vectors/rotation_vector.h"
 
 enum { LD_FIXED_ROWS = 2 * LD_MAX_SUPPORTS + 4 }; // b and b' at each support, ct, c; padded
 

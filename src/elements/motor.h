@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_MOTOR_H
 #define LD_ELEMENTS_MOTOR_H
 
-#include "math/mat3.h"
+#include "math/vectors/mat3.h"
 #include "model/model.h"
 
 // Mass data of the rocket at one instant; rates for the energy balance.

@@ -6,8 +6,8 @@
 #define LD_ELEMENTS_ROCKET_H
 
 #include "elements/tube.h"
-#include "math/rotation_vector.h"
 #include "math/sine_cosine.h"
+#include "math/vectors/rotation_vector.h"
 
 // Sines and cosines of the rocket's angles in the tube.
 typedef struct rocket_turns {

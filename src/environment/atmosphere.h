@@ -3,7 +3,7 @@
 #define LD_ENVIRONMENT_ATMOSPHERE_H
 
 #include "environment/atmosphere_layer.h"
-#include "math/curves.h"
+#include "math/curves/curves.h"
 #include "model/model.h"
 
 typedef struct atmosphere {

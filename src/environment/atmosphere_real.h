@@ -3,7 +3,7 @@
 #define LD_ENVIRONMENT_ATMOSPHERE_REAL_H
 
 #include "environment/atmosphere_layer.h"
-#include "math/curves.h"
+#include "math/curves/curves.h"
 #include "math/real_functions.h"
 
 #define ATMOSPHERE_GRAVITY 9.80665                  // [m/s2] g_0'

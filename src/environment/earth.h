@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "math/mat3.h"
+#include "math/vectors/mat3.h"
 #include "model/model.h"
 
 typedef struct earth {

@@ -2,7 +2,7 @@
 #ifndef LD_ENVIRONMENT_EARTH_REAL_H
 #define LD_ENVIRONMENT_EARTH_REAL_H
 
-#include "math/real_vec3.h"
+#include "math/vectors/real_vec3.h"
 
 // Gravitational acceleration at the point r of C: gm [m3/s2], j2, a [m] as in environment/earth.h.
 LD_INLINE real3 earth_gravitation(real gm, real j2, real a, real3 r)

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "math/curves/spline.h"
 #include "math/functions.h"
 #include "math/sine_cosine.h"
-#include "math/spline.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 

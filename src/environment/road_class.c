@@ -3,9 +3,9 @@
 #include <stdlib.h>
 
 #include "environment/road.h"
-#include "math/distributions.h"
+#include "math/curves/distributions.h"
+#include "math/curves/spectrum.h"
 #include "math/functions.h"
-#include "math/spectrum.h"
 
 static const double N0 = 0.1, LOWEST = 0.011, HIGHEST = 2.83; // [1/m]
 

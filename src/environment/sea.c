@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "math/distributions.h"
+#include "math/curves/distributions.h"
 #include "math/functions.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;

@@ -2,7 +2,7 @@
 #ifndef LD_ENVIRONMENT_WIND_H
 #define LD_ENVIRONMENT_WIND_H
 
-#include "math/curves.h"
+#include "math/curves/curves.h"
 #include "math/vec3.h"
 #include "model/model.h"
 

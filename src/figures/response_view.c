@@ -7,9 +7,9 @@
 #include "launchdyn/response_view.h"
 #include "math/functions.h"
 #include "model/model.h"
+#include "quantities/measures.h"
+#include "quantities/study_results.h"
 #include "results/columns.h"
-#include "simulation/measures.h"
-#include "simulation/study_results.h"
 
 enum { POINTS = 600, MOST_SPEEDS = 10000, CHARTS = 8, CURVES = 6, NAME = 128 };
 

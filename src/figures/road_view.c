@@ -7,8 +7,8 @@
 #include "environment/road_class.h"
 #include "figures/chart.h"
 #include "launchdyn/environment.h"
+#include "math/curves/spectrum.h"
 #include "math/functions.h"
-#include "math/spectrum.h"
 #include "results/columns.h"
 
 enum { MOST_PLACES = 10000000, MOST_BANDS = 200, CLASSES = 8 };

@@ -7,8 +7,8 @@
 #include "environment/wind.h"
 #include "figures/chart.h"
 #include "launchdyn/environment.h"
+#include "math/curves/spectrum.h"
 #include "math/functions.h"
-#include "math/spectrum.h"
 #include "results/columns.h"
 
 enum { LEVELS = 201, INSTANTS = 1001, MOST_PLACES = 1000000, MOST_BANDS = 100, AXES = 3 };

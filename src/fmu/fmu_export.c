@@ -13,7 +13,7 @@
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
 #include "math/functions.h"
-#include "model/source.h"
+#include "model/fields/source.h"
 
 enum { NAME_SIZE = 512, IDENTIFIER_SIZE = 80 };
 

@@ -13,7 +13,7 @@
 #include "fmu/fmu_source.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
-#include "model/digest.h"
+#include "model/fields/digest.h"
 
 enum { PATH_SIZE = 4096, SET_SIZE = 2048, SAVED_TEXT = 1024, SCENARIO_BYTES = 64 << 20 };
 

@@ -3,8 +3,8 @@
 #define LD_FMU_FMU_INSTANCE_OWN_H
 
 #include "fmu/fmu_variables.h"
-#include "model/source.h"
-#include "simulation/launch_outside.h"
+#include "launch/launch_outside.h"
+#include "model/fields/source.h"
 
 // Where an importer that takes the steps is.
 typedef struct fmu_exchange {

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "fmu/fmu_runner.h"
-#include "simulation/launch_outside.h"
+#include "launch/launch_outside.h"
 
 typedef ld_status beginning(const ld_simulation *simulation, const ld_run_options *options,
                             ld_run **run, ld_error *error);

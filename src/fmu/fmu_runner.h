@@ -47,7 +47,7 @@ typedef struct fmu_runner {
     ld_status (*save)(void *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
 
-    // Model exchange, of what is an ld_run, by simulation/launch_outside.h; NULL: there is none.
+    // Model exchange, of what is an ld_run, by launch/launch_outside.h; NULL: there is none.
     const struct fmu_exchanging *exchanging;
 } fmu_runner;
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/text_file.h"
-#include "model/source.h"
+#include "model/fields/source.h"
 
 enum { PATH_SIZE = 4096, TEXT_BYTES = 64 << 20 };
 

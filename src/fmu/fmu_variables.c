@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "launch/launch_outside.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
-#include "model/digest.h"
-#include "simulation/launch_outside.h"
-#include "simulation/summary.h"
-#include "simulation/summary_quantities.h"
+#include "model/fields/digest.h"
+#include "quantities/summary.h"
+#include "quantities/summary_quantities.h"
 
 #define KEY_PREFIX "scenario."
 

@@ -647,8 +647,8 @@ typedef struct ld_adaptor {
 } ld_adaptor;
 
 /// The contact laws, the first by default: each with its word and its traits. Their forces stand in
-/// elements/contact.h; of one that holds on both sides that of an adaptor in elements/adaptor.h
-/// (bilateral) and elements/ideal.h.
+/// elements/guide/contact.h; of one that holds on both sides that of an adaptor in
+/// elements/guide/adaptor.h (bilateral) and elements/guide/ideal.h.
 #define LD_CONTACT_LAWS(LAW)                                                                       \
     LAW(LD_CONTACT_HUNT_CROSSLEY, "hunt-crossley", 0)                                              \
     LAW(LD_CONTACT_LANKARANI_NIKRAVESH, "lankarani-nikravesh", LD_CONTACT_BY_TOUCH)                \
@@ -919,7 +919,7 @@ typedef struct ld_run_settings {
 } ld_run_settings;
 
 /// Distributions of a factor: each with its word, what a scenario says of it, and its traits. What
-/// they make of a uniform number stands in studies/draw.c (model.md, section 10).
+/// they make of a uniform number stands in studies/plan/draw.c (model.md, section 10).
 #define LD_DISTRIBUTIONS(ROW)                                                                      \
     ROW(LD_NORMAL, "normal", LD_GIVEN_DEVIATION, LD_ABOUT_NOMINAL | LD_BOUNDED)                    \
     ROW(LD_UNIFORM, "uniform", LD_GIVEN_SPAN, 0)                                                   \

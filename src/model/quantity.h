@@ -1,7 +1,7 @@
 // A quantity is written once, as a row of a table: how it is called, what it is, where its number
 // stands. From the rows follow columns, the numbers of summary.json, the table after a run, what a
 // study keeps of a rocket (`studied`), docs/quantities.md, and what a program finds by name
-// (simulation/quantity_table.h).
+// (quantities/quantity_table.h).
 #ifndef LD_MODEL_QUANTITY_H
 #define LD_MODEL_QUANTITY_H
 

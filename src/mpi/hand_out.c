@@ -10,8 +10,8 @@
 #include <time.h>
 
 #include "cli/command.h"
-#include "studies/ledger.h"
-#include "studies/worker.h"
+#include "studies/run/ledger.h"
+#include "studies/run/worker.h"
 
 enum { TAG_RECORD = 1, TAG_NUMBER = 2, DISMISSED = 0 };
 

@@ -14,7 +14,7 @@
 #include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
 #include "mpi/hand_out.h"
-#include "studies/study.h"
+#include "studies/plan/study.h"
 
 static const command study_command = {
     .name = "study",

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "math/quaternion.h"
-#include "math/rotation_vector.h"
+#include "math/vectors/quaternion.h"
+#include "math/vectors/rotation_vector.h"
 #include "report/report_parts.h"
 #include "results/json_text.h"
 

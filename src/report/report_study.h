@@ -3,11 +3,11 @@
 #define LD_REPORT_REPORT_STUDY_H
 
 #include "launchdyn/study.h"
+#include "quantities/study_results.h"
 #include "report/report_html.h"
-#include "simulation/study_results.h"
-#include "studies/measured.h"
-#include "studies/statistics.h"
-#include "studies/study_data.h"
+#include "studies/show/measured.h"
+#include "studies/statistics/statistics.h"
+#include "studies/store/study_data.h"
 
 // More series than REPORT_OVERLAID are drawn as columns: their histograms are left out.
 enum { REPORT_SERIES = 40, REPORT_OVERLAID = 4, REPORT_BINS = 80, REPORT_PLACES = 60 };

@@ -6,8 +6,8 @@
 
 #include "report/report_study.h"
 #include "results/json_text.h"
-#include "studies/footprint.h"
-#include "studies/normality.h"
+#include "studies/show/footprint.h"
+#include "studies/statistics/normality.h"
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.
 enum { BYTES_OF_POINTS = 400000, BYTES_OF_A_POINT = 40, MOST_POINTS = 2000 };

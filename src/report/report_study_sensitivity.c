@@ -4,7 +4,7 @@
 
 #include "report/report_study.h"
 #include "results/json_text.h"
-#include "studies/sensitivity.h"
+#include "studies/statistics/sensitivity.h"
 
 // The most wanted first: of many series and factors there is no room for all.
 static const char *const results[] = {

@@ -7,7 +7,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 
 // Of history.h5: 1 had texts of variable length and no checksums.
 enum { HISTORY_FORMAT = 2 };

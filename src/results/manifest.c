@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "base/text_file.h"
-#include "model/digest.h"
+#include "model/fields/digest.h"
 
 const char *const manifest_name[MANIFEST_FILES] = {
     [MANIFEST_HDF5] = "history.h5",

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/memory_stream.h"
-#include "model/source.h"
+#include "model/fields/source.h"
 #include "results/json_text.h"
 #include "results/program.h"
 #include "scenario/scenario.h"

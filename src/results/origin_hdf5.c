@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include "base/child.h"
-#include "model/source.h"
+#include "model/fields/source.h"
 #include "results/hdf5_support.h"
 #include "results/manifest.h"
 #include "results/origin.h"

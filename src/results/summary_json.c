@@ -11,12 +11,12 @@
 #include "base/numeric_locale.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
+#include "quantities/measures.h"
+#include "quantities/summary.h"
+#include "quantities/summary_quantities.h"
 #include "results/json.h"
 #include "results/json_text.h"
 #include "results/origin.h"
-#include "simulation/measures.h"
-#include "simulation/summary.h"
-#include "simulation/summary_quantities.h"
 
 // ---- numbers by their paths
 

@@ -3,9 +3,9 @@
 #include "base/printed.h"
 #include "launchdyn/output.h"
 #include "math/functions.h"
-#include "simulation/measures.h"
-#include "simulation/summary.h"
-#include "simulation/summary_quantities.h"
+#include "quantities/measures.h"
+#include "quantities/summary.h"
+#include "quantities/summary_quantities.h"
 
 // " ± error" of the values in a line, never less than their last digit; "" where it is not known.
 static const char *print_error(const quantity_line *line, const void *from, char text[32])

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario_reader.h"
 
 static const double LONG_AGO = 1e5, FARTHEST = 1e15; // [s]

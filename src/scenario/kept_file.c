@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 
 #include "base/text_file.h"
-#include "model/digest.h"
-#include "model/source.h"
+#include "model/fields/digest.h"
+#include "model/fields/source.h"
 #include "scenario/scenario_reader.h"
 
 // "FNV-1a DIGEST of SIZE bytes", in the pool.

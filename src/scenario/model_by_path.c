@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/numeric_locale.h"
-#include "model/field.h"
-#include "model/source.h"
+#include "model/fields/field.h"
+#include "model/fields/source.h"
 #include "scenario/scenario.h"
 #include "scenario/scenario_text.h"
 

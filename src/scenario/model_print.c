@@ -2,12 +2,12 @@
 #include <locale.h>
 
 #include "base/printed.h"
-#include "model/field.h"
+#include "model/fields/field.h"
+#include "quantities/measures.h"
+#include "quantities/study_results.h"
 #include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/scenario_text.h"
-#include "simulation/measures.h"
-#include "simulation/study_results.h"
 
 #include <string.h>
 

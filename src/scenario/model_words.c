@@ -6,7 +6,7 @@
 #include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
 #include "math/functions.h"
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "model/model.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180;

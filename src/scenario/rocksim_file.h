@@ -2,7 +2,7 @@
 #ifndef LD_SCENARIO_ROCKSIM_FILE_H
 #define LD_SCENARIO_ROCKSIM_FILE_H
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/line_reader.h"
 
 // Reads the file of one engine, whose text the lines have not begun to read: of a format with two

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario_reader.h"
 
 // One group while it is read.

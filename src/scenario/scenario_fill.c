@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "model/field.h"
+#include "model/fields/field.h"
+#include "quantities/measures.h"
 #include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
-#include "simulation/measures.h"
 
 enum { PATH = READER_MAX_PATH };
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "math/functions.h"
-#include "model/plausible.h"
+#include "model/warnings/plausible.h"
 #include "scenario/scenario_reader.h"
 
 // What a key is called with another prefix, a thousandfold from one to the next.

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario_reader.h"
 
 static const char *skip_digits(const char *text, bool *any)

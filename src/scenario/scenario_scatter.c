@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario_reader.h"
 
 // One factor while it is read.

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory_stream.h"
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario_reader.h"
 
 static bool refuse(scenario_reader *reader, text_place place, const char *key, const char *format,

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 
 // A factor's distribution, "normal: 0.2 kg, within: 3"; what is too long is cut.
 ld_status scenario_factor_text(const ld_model *model, const ld_factor *factor, char *text,

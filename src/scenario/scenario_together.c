@@ -2,8 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "quantities/study_results.h"
 #include "scenario/scenario_reader.h"
-#include "simulation/study_results.h"
 
 // Whether the name can stand beside the other columns of a study; NULL: it can.
 static const char *wrong_with_name(const char *name)

@@ -3,7 +3,7 @@
 #include "scenario/scenario_reader.h"
 
 #include "base/suggestion.h"
-#include "model/field.h"
+#include "model/fields/field.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "model/field.h"
+#include "model/fields/field.h"
+#include "quantities/measures.h"
+#include "quantities/study_results.h"
 #include "scenario/scenario_reader.h"
-#include "simulation/measures.h"
-#include "simulation/study_results.h"
 
 static const char *const statistic_names[] = {"mean", "deviation"};
 enum { STATISTICS = sizeof statistic_names / sizeof *statistic_names };

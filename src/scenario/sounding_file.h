@@ -2,7 +2,7 @@
 #ifndef LD_SCENARIO_SOUNDING_FILE_H
 #define LD_SCENARIO_SOUNDING_FILE_H
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/line_reader.h"
 
 // Whether the line at hand is the header of a sounding, not that of a table with units in brackets

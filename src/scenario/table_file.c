@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/clock_text.h"
 #include "scenario/line_reader.h"
 #include "scenario/rocksim_file.h"

@@ -6,8 +6,8 @@
 
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 
 static void write_text(const char *name, const char *text)
 {

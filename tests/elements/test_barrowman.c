@@ -2,7 +2,7 @@
 // figures that RocketPy prints of rockets in its documentation.
 #include "support/check.h"
 
-#include "elements/barrowman.h"
+#include "elements/air/barrowman.h"
 
 static const double pi = 3.14159265358979323846;
 

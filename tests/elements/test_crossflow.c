@@ -1,5 +1,5 @@
 // The air on the emerged part of the rocket against integrals by hand.
-#include "elements/crossflow.h"
+#include "elements/guide/crossflow.h"
 #include "support/check.h"
 #include "support/draw.h"
 

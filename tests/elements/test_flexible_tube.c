@@ -1,6 +1,6 @@
 // The flexible tube as data: tangent form, orthonormal modes, inertia coefficients against
 // quadrature of the shapes, alignment and padding, sign, refusals.
-#include "elements/flexible_tube.h"
+#include "elements/tube/flexible_tube.h"
 
 #include <stdlib.h>
 #include <string.h>

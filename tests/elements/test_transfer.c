@@ -1,11 +1,11 @@
 // Transfer matrices of the elements: symplectic with determinant 1 (any element whose equations are
 // M eta_dot = h + L_I^T F_I - L_O^T F_O must be), and against plain Newton-Euler equations.
-#include "elements/transfer.h"
+#include "elements/tube/transfer.h"
 
 #include <string.h>
 
-#include "elements/tube_dynamics.h"
-#include "math/dense.h"
+#include "elements/tube/tube_dynamics.h"
+#include "math/matrices/dense.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"

@@ -2,11 +2,11 @@
 // space alone, differentiated twice in time by differences of the whole path, integrated by Gauss
 // quadrature. Nothing of sections 1 and 5 of the formulation enters the expected values but the
 // displacement field.
-#include "elements/tube_dynamics.h"
+#include "elements/tube/tube_dynamics.h"
 
 #include <string.h>
 
-#include "math/rotation_vector.h"
+#include "math/vectors/rotation_vector.h"
 #include "support/check.h"
 #include "support/draw.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "environment/road.h"
-#include "math/spectrum.h"
+#include "math/curves/spectrum.h"
 #include "support/check.h"
 
 enum { SEEDS = 200, SAMPLES = 32768, OCTAVES = 9, SHARES = 200 };

@@ -1,7 +1,7 @@
 // Spectrum of each component against the distance flown at constant height, over many seeds.
 // ctest: slow
 #include "environment/turbulence.h"
-#include "math/spectrum.h"
+#include "math/curves/spectrum.h"
 #include "support/check.h"
 
 enum { SEEDS = 200, OCTAVES = 10 };

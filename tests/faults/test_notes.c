@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "model/plausible.h"
+#include "model/warnings/plausible.h"
 #include "scenario/scenario.h"
 
 enum { MAX_SETS = 24, MAX_TEXT = 8192, MAX_RULES = 256 };

@@ -7,8 +7,8 @@
 
 #include "figures/labels.h"
 #include "figures/plot.h"
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 #include "support/made_launch.h"
 #include "support/scratch.h"
 

@@ -7,9 +7,9 @@
 
 #include "base/text_file.h"
 #include "figures/plot.h"
+#include "flight/free_flight.h"
 #include "scenario/units.h"
-#include "simulation/free_flight.h"
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 #include "support/reference_model.h"
 
 // What a figure may show: the columns of a launch from a vehicle, or of a flight.

@@ -12,7 +12,7 @@
 
 #include "fmu/fmi2_interface.h"
 #include "fmu/fmi3_interface.h"
-#include "math/rotation_vector.h"
+#include "math/vectors/rotation_vector.h"
 
 enum { // value references
     FORCE = 0,

@@ -9,10 +9,10 @@
 #include <unistd.h>
 
 #include "foreign/foreign.h"
+#include "launch/launch_run.h"
 #include "launchdyn/run.h"
-#include "math/rotation_vector.h"
+#include "math/vectors/rotation_vector.h"
 #include "scenario/scenario.h"
-#include "simulation/launch_run.h"
 #include "support/check.h"
 #include "support/made_fmu.h"
 #include "support/scratch.h"

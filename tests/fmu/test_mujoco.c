@@ -8,8 +8,8 @@
 #include "launchdyn/run.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
-#include "math/dense.h"
-#include "math/general_eigen.h"
+#include "math/matrices/dense.h"
+#include "math/matrices/general_eigen.h"
 #include "support/fmu.h"
 
 #define PACKED LD_BINARY_DIR "/examples/mujoco_vehicle.fmu"

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "fuzz/memory_folder.h"
-#include "studies/pending.c"
+#include "studies/store/pending.c"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

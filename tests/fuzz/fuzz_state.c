@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "launchdyn/run.h"
-#include "model/digest.h"
+#include "model/fields/digest.h"
 #include "scenario/scenario.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

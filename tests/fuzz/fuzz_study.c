@@ -8,9 +8,9 @@
 #include "fuzz/must_say.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/report.h"
-#include "studies/row_digest.h"
-#include "studies/store.h"
-#include "studies/study_data.h"
+#include "studies/store/row_digest.h"
+#include "studies/store/store.h"
+#include "studies/store/study_data.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,8 +1,8 @@
 // Interpolation: pchip slopes in closed form, shapes kept, polynomials reproduced, ends held.
 #include "support/check.h"
 
-#include "math/curves.h"
-#include "math/pchip.h"
+#include "math/curves/curves.h"
+#include "math/curves/pchip.h"
 
 // Squares at 0, 1, 2, 3: harmonic means 2 s0 s1/(s0 + s1) of the secants 1, 3, 5; ends (3 s0 -
 // s1)/2.

@@ -1,7 +1,7 @@
 // Distribution functions against values to 20 digits (mpmath).
 #include "support/check.h"
 
-#include "math/distributions.h"
+#include "math/curves/distributions.h"
 
 static double relative(double measured, double expected)
 {

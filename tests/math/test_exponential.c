@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "math/exponential.h"
+#include "math/matrices/exponential.h"
 #include "support/check.h"
 
 enum { N = 4, RUNGS = 5 };

@@ -1,9 +1,9 @@
 // Solutions by the form of Hessenberg against LAPACK's of the whole.
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <complex.h>
 #include <stdlib.h>
 
-#include "math/hessenberg.h"
+#include "math/matrices/hessenberg.h"
 #include "support/check.h"
 
 enum { N = 37 };

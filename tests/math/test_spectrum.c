@@ -1,5 +1,5 @@
 // Power spectral densities against the plain sum of the definition, known signals, Parseval.
-#include "math/spectrum.h"
+#include "math/curves/spectrum.h"
 
 #include <complex.h>
 #include <stdlib.h>

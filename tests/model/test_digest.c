@@ -1,7 +1,7 @@
 // The digest of a model: the same for a model read again, another one whatever key is changed.
 #include <stdlib.h>
 
-#include "model/digest.h"
+#include "model/fields/digest.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/plausible.h"
+#include "model/warnings/plausible.h"
 
 static char *read_whole(const char *path)
 {

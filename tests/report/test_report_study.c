@@ -9,8 +9,8 @@
 
 #include "launchdyn/study.h"
 #include "report/report_study.h"
-#include "studies/density.h"
-#include "studies/sensitivity.h"
+#include "studies/statistics/density.h"
+#include "studies/statistics/sensitivity.h"
 
 // ---- studies made up
 

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "math/quaternion.h"
-#include "math/rotation_vector.h"
+#include "math/vectors/quaternion.h"
+#include "math/vectors/rotation_vector.h"
 #include "support/example_run.h"
 #include "support/scratch.h"
 

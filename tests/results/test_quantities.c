@@ -7,11 +7,11 @@
 #include <string.h>
 
 #include "base/text_file.h"
+#include "flight/free_flight.h"
 #include "launchdyn/output.h"
-#include "simulation/free_flight.h"
-#include "simulation/launch_quantities.h"
-#include "simulation/simulation.h"
-#include "simulation/study_results.h"
+#include "quantities/launch_quantities.h"
+#include "quantities/study_results.h"
+#include "state/simulation.h"
 #include "support/reference_model.h"
 #include "support/scratch.h"
 

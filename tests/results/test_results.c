@@ -15,8 +15,8 @@
 #include <unistd.h>
 
 #include "launchdyn/output.h"
+#include "quantities/study_results.h"
 #include "results/history.h"
-#include "simulation/study_results.h"
 #include "support/comma_locale.h"
 #include "support/made_launch.h"
 

@@ -5,12 +5,12 @@
 #include <sys/stat.h>
 
 #include "launchdyn/output.h"
-#include "math/mat3.h"
-#include "math/quaternion.h"
+#include "math/vectors/mat3.h"
+#include "math/vectors/quaternion.h"
+#include "quantities/study_results.h"
 #include "results/history.h"
 #include "results/manifest.h"
 #include "scenario/scenario.h"
-#include "simulation/study_results.h"
 #include "support/column_book.h"
 #include "support/scratch.h"
 

@@ -7,8 +7,8 @@
 
 #include <unistd.h>
 
-#include "model/digest.h"
-#include "model/field.h"
+#include "model/fields/digest.h"
+#include "model/fields/field.h"
 #include "scenario/scenario.h"
 #include "support/comma_locale.h"
 #include "support/model_compare.h"

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/text_file.h"
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario.h"
 #include "scenario/scenario_reader.h"
 

@@ -5,8 +5,8 @@
 // velocities by differences, works by quadrature of powers found from those forces. The linker
 // leads each row through this test, so that the state is at hand. A new column fails it until what
 // the column ought to hold is said here (support/column_book.h).
-#include "math/mat3.h"
-#include "simulation/launch_state.h"
+#include "math/vectors/mat3.h"
+#include "state/launch_state.h"
 #include "support/column_book.h"
 #include "support/dense_simulation.h"
 #include "support/recorded_run.h"

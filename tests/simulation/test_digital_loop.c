@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

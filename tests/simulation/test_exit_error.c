@@ -10,7 +10,7 @@
 
 #include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/random_model.h"

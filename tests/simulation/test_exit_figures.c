@@ -5,10 +5,10 @@
 
 #include <stdlib.h>
 
-#include "math/mat3.h"
+#include "math/vectors/mat3.h"
+#include "quantities/study_results.h"
 #include "scenario/scenario.h"
-#include "simulation/launch_state.h"
-#include "simulation/study_results.h"
+#include "state/launch_state.h"
 #include "support/draw.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "flight/flight_lanes.h"
 #include "scenario/scenario.h"
-#include "simulation/flight_lanes.h"
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 
 enum { FLIGHTS = 11, MOST_SETTINGS = 6 };
 

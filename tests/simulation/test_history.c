@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "math/mat3.h"
+#include "math/vectors/mat3.h"
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 
 enum { ROWS = 10000, COLUMNS = 32 };
 

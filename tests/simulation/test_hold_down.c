@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
 

@@ -1,5 +1,5 @@
 // The integrator's adapter against closed forms: order, events, interpolation, repetition.
-#include "simulation/integrator.h"
+#include "integration/integrator.h"
 #include "support/check.h"
 
 // Oscillator y'' = -y: y = (sin t, cos t); event: y[0] = 0.5 first at pi/6.

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "launchdyn/loop.h"
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

@@ -3,9 +3,9 @@
 #include "support/check.h"
 
 #include "launchdyn/simulation.h"
+#include "quantities/measures.h"
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/measures.h"
-#include "simulation/summary.h"
 
 enum { MOST = LD_MAX_MEASURES };
 

@@ -1,10 +1,10 @@
 // Damping of the tube's modes, of random round tubes on supports whose stiffness is the same in
 // both planes: their bending modes come in pairs of equal frequency, in which any two shapes are
 // modes.
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <stdlib.h>
 
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 #include "support/check.h"
 #include "support/launching_state.h"
 #include "support/random_model.h"

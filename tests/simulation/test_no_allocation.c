@@ -8,7 +8,7 @@
 #include <fenv.h>
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/multibody_case.h"
 #include "support/reference_model.h"
 

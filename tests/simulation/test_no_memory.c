@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "launchdyn/run.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/reference_model.h"
 
 void *__real_malloc(size_t size);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/random_model.h"
 #include "support/reference_model.h"

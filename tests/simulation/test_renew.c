@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "scenario/scenario.h"
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 
 static void read_example(const char *name, ld_model *model)
 {

@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 #include "scenario/scenario.h"
-#include "simulation/simulation.h"
+#include "state/simulation.h"
 
 // All forms of sections, a mass at a point, modes of every kind; the first instants are enough to
 // tell one tube from another.

@@ -7,7 +7,7 @@
 #include "launchdyn/history.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 
 static ld_model *read_example(const char *name, const char *const *sets, size_t count)
 {

@@ -5,7 +5,7 @@
 
 #include "launchdyn/run.h"
 #include "launchdyn/summary.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "launchdyn/run.h"
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 #include "support/check.h"
 
 enum { MOST_SETS = 7, MOST_BYTES = 1 << 17, SPREAD = 120, MOST_INSTANTS = 300 };

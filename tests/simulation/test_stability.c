@@ -1,6 +1,6 @@
 // Stabilisers that cannot hold their platforms are refused before the run, and no others.
-#include "simulation/simulation.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
+#include "state/simulation.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/against.h"
-#include "studies/pairs.h"
+#include "math/curves/distributions.h"
+#include "studies/plan/pairs.h"
+#include "studies/show/against.h"
 
 enum { MOST = 200, REPEATS = 1000 };
 

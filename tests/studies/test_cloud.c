@@ -5,10 +5,10 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/density.h"
-#include "studies/normality.h"
-#include "studies/statistics.h"
+#include "math/curves/distributions.h"
+#include "studies/statistics/density.h"
+#include "studies/statistics/normality.h"
+#include "studies/statistics/statistics.h"
 
 enum { MOST = 20000 };
 

@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "math/distributions.h"
-#include "studies/draw.h"
+#include "math/curves/distributions.h"
+#include "studies/plan/draw.h"
 
 enum { MANY = 40000, FACTORS = 4 };
 

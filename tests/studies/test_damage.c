@@ -13,7 +13,7 @@
 
 #include "base/random.h"
 #include "launchdyn/report.h"
-#include "studies/row_digest.h"
+#include "studies/store/row_digest.h"
 
 static const char text[] = "include: flight.yaml\n"
                            "run: {flight_tolerance: 1e-4}\n"

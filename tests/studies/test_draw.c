@@ -4,10 +4,10 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "math/distributions.h"
+#include "math/curves/distributions.h"
 #include "scenario/scenario.h"
-#include "studies/draw.h"
-#include "studies/sample.h"
+#include "studies/plan/draw.h"
+#include "studies/plan/sample.h"
 
 static const field_row row = {.kind = FIELD_NUMBER, .unit = "m", .range = {0, 999, 0, 0}};
 static const field_place place = {.row = &row};

@@ -4,8 +4,8 @@
 #include "support/check.h"
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/footprint.h"
+#include "math/curves/distributions.h"
+#include "studies/show/footprint.h"
 
 enum { MOST = 12000, LINES = 1200 };
 

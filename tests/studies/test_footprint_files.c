@@ -9,8 +9,8 @@
 
 #include "base/random.h"
 #include "launchdyn/study_data.h"
-#include "math/distributions.h"
-#include "studies/footprint_shape.h"
+#include "math/curves/distributions.h"
+#include "studies/show/footprint_shape.h"
 #include "support/study_run.h"
 
 enum { SAMPLES = 300, MOST = 4000 };

@@ -4,9 +4,9 @@
 #include "support/check.h"
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/sensitivity.h"
-#include "studies/statistics.h"
+#include "math/curves/distributions.h"
+#include "studies/statistics/sensitivity.h"
+#include "studies/statistics/statistics.h"
 
 enum { MOST = 200 };
 

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/agreement.h"
-#include "studies/measured.h"
+#include "math/curves/distributions.h"
+#include "studies/show/measured.h"
+#include "studies/statistics/agreement.h"
 
 // ---- the test of agreement
 

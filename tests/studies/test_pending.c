@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "studies/pending.h"
+#include "studies/store/pending.h"
 
 static const study_shape asked = {.rockets = 2, .of_sample = 3, .of_rocket = 1, .results = 4};
 static char path[64];

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 #include "launchdyn/study.h"
+#include "quantities/study_results.h"
 #include "scenario/scenario.h"
-#include "simulation/study_results.h"
 #include "support/recorded_run.h"
 
 #define LAUNCHER                                                                                   \

@@ -4,9 +4,9 @@
 #include "support/check.h"
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/draw.h"
-#include "studies/sensitivity.h"
+#include "math/curves/distributions.h"
+#include "studies/plan/draw.h"
+#include "studies/statistics/sensitivity.h"
 
 enum { REPEATS = 1000, MOST = 2000 };
 

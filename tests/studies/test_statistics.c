@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 #include "base/random.h"
-#include "math/distributions.h"
-#include "studies/draw.h"
-#include "studies/statistics.h"
+#include "math/curves/distributions.h"
+#include "studies/plan/draw.h"
+#include "studies/statistics/statistics.h"
 
 enum { REPEATS = 1000, LEVELS = STATISTICS_QUANTILES };
 static const double a = 3; // mean

@@ -8,9 +8,9 @@
 #include <unistd.h>
 
 #include "launchdyn/study_data.h"
-#include "simulation/summary.h"
-#include "studies/store.h"
-#include "studies/until.h"
+#include "quantities/summary.h"
+#include "studies/run/until.h"
+#include "studies/store/store.h"
 
 #define LAUNCH                                                                                     \
     "include: fixed.yaml\n"                                                                        \

@@ -3,9 +3,9 @@
 #include "support/study_database.h"
 
 #include "base/random.h"
-#include "studies/draw.h"
-#include "studies/statistics.h"
-#include "studies/study_data.h"
+#include "studies/plan/draw.h"
+#include "studies/statistics/statistics.h"
+#include "studies/store/study_data.h"
 
 static study_data open_data(const char *name)
 {

@@ -4,8 +4,8 @@
 
 #include <stdatomic.h>
 
-#include "studies/study_data.h"
-#include "studies/until.h"
+#include "studies/run/until.h"
+#include "studies/store/study_data.h"
 
 #define SWEEP                                                                                      \
     "include: fixed.yaml\n"                                                                        \

@@ -1,6 +1,6 @@
 #include "support/dense_launch.h"
 
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -13,7 +13,7 @@
 
 #include <stdbool.h>
 
-#include "elements/flexible_tube.h"
+#include "elements/tube/flexible_tube.h"
 #include "model/model.h"
 
 enum { DENSE_MAX_MODES = 28, DENSE_MAX_COORDINATES = DENSE_MAX_MODES + 12 };

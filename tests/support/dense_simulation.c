@@ -1,6 +1,6 @@
 #include "support/dense_simulation.h"
 
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "math/quaternion.h"
+#include "math/vectors/quaternion.h"
 
 // Uniform in [-1, 1).
 static inline double draw(uint64_t *state)

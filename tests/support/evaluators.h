@@ -2,7 +2,7 @@
 #ifndef LD_TESTS_SUPPORT_EVALUATORS_H
 #define LD_TESTS_SUPPORT_EVALUATORS_H
 
-#include "systems/launching.h"
+#include "systems/launching/launching.h"
 
 typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
                                        const launching_phase *, const double *, launching_output *);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 
 // [rad/s] in its rates, and in its attitude at 50/s.
 static inline double exit_distance(const ld_summary *a, const ld_summary *b)

@@ -2,7 +2,7 @@
 #ifndef LD_TESTS_SUPPORT_FRESH_LAUNCH_H
 #define LD_TESTS_SUPPORT_FRESH_LAUNCH_H
 
-#include "simulation/launch_state.h"
+#include "state/launch_state.h"
 #include "support/check.h"
 
 typedef struct fresh_launch {

@@ -2,9 +2,9 @@
 #ifndef LD_TESTS_SUPPORT_LAUNCHING_RUN_H
 #define LD_TESTS_SUPPORT_LAUNCHING_RUN_H
 
-#include "simulation/integrator.h"
+#include "integration/integrator.h"
 #include "support/dense_launch.h"
-#include "systems/launching.h"
+#include "systems/launching/launching.h"
 
 enum { RUN_STATES = 32 + 2 * LD_MAX_MODAL + POWER_COUNT };
 

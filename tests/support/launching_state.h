@@ -6,7 +6,7 @@
 
 #include "support/dense_simulation.h"
 #include "support/draw.h"
-#include "systems/launching.h"
+#include "systems/launching/launching.h"
 
 typedef struct launching_case {
     double state[32 + 2 * LD_MAX_MODAL];

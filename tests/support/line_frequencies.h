@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "elements/tube_modes.h"
+#include "elements/tube/tube_modes.h"
 #include "support/check.h"
 
 // The `count` lowest [rad/s], ascending, of a line as it is in a plane.

@@ -7,7 +7,7 @@
 
 #include "launchdyn/results.h"
 #include "model/model.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 
 enum { MADE_COLUMNS = 115 };
 

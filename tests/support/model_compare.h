@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "model/field.h"
+#include "model/fields/field.h"
 
 static inline bool same_table(const ld_table *a, const ld_table *b)
 {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "model/guide.h"
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"

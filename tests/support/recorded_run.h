@@ -2,7 +2,7 @@
 #ifndef LD_TESTS_SUPPORT_RECORDED_RUN_H
 #define LD_TESTS_SUPPORT_RECORDED_RUN_H
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 
 typedef struct recorded_run {
     ld_simulation *simulation; // kept for its columns

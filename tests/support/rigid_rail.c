@@ -1,9 +1,9 @@
 #include "support/rigid_rail.h"
 
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <math.h>
 
-#include "math/quaternion.h"
+#include "math/vectors/quaternion.h"
 #include "support/dense_flight.h"
 #include "support/dense_simulation.h"
 

@@ -1,10 +1,10 @@
 #include "support/rigid_rest.h"
 
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <math.h>
 #include <string.h>
 
-#include "math/rotation_vector.h"
+#include "math/vectors/rotation_vector.h"
 #include "model/guide.h"
 
 // Freedoms: O1 along y and z, turns about x, y and z of the guide.

@@ -4,7 +4,7 @@
 #ifndef LD_TESTS_SUPPORT_RIGID_REST_H
 #define LD_TESTS_SUPPORT_RIGID_REST_H
 
-#include "math/quaternion.h"
+#include "math/vectors/quaternion.h"
 #include "model/model.h"
 
 // In the guide's axes.

@@ -4,8 +4,8 @@
 
 #include <sqlite3.h>
 
-#include "studies/row_digest.h"
-#include "studies/store.h"
+#include "studies/store/row_digest.h"
+#include "studies/store/store.h"
 #include "support/check.h"
 
 // The digest of a sample and its rockets as they stand there.

@@ -2,7 +2,7 @@
 // inertia of a part is that of its points, at a force the resultant jumps by it.
 #include <stdlib.h>
 
-#include "elements/tube_dynamics.h"
+#include "elements/tube/tube_dynamics.h"
 #include "support/check.h"
 #include "support/evaluators.h"
 #include "support/launching_run.h"

@@ -5,7 +5,7 @@
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"
-#include "systems/marching.h"
+#include "systems/bases/marching.h"
 
 static const double PI = 3.141592653589793238462643383280, GRAVITY = 9.80665;
 

@@ -1,12 +1,12 @@
 // A measured motion: splines against the motion that was sampled and their order of convergence,
 // quaternions against angles, wrapped angles, signs, and clocks that count from long ago.
-#include "systems/motion_table.h"
+#include "systems/bases/motion_table.h"
 
 #include <stdlib.h>
 
 #include "scenario/clock_text.h"
 #include "support/check.h"
-#include "systems/base.h"
+#include "systems/bases/base.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -5,7 +5,7 @@
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"
-#include "systems/orientating.h"
+#include "systems/bases/orientating.h"
 
 static const double PI = 3.141592653589793238462643383280;
 

@@ -1,10 +1,10 @@
 // A ship in its sea: one wave against the base of sines, irregular seas against differences, the
 // wave-by-wave sum and the spectrum; sides, headings, overtaken waves, the arm to the tube.
-#include "systems/sea_motion.h"
+#include "systems/bases/sea_motion.h"
 
 #include "environment/sea.h"
 #include "support/check.h"
-#include "systems/base.h"
+#include "systems/bases/base.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -3,10 +3,10 @@
 // here on its own, and against what is known exactly.
 #include <stdlib.h>
 
-#include "simulation/integrator.h"
+#include "integration/integrator.h"
 #include "support/check.h"
 #include "support/reference_model.h"
-#include "systems/orientating.h"
+#include "systems/bases/orientating.h"
 
 static const double J = 800, C = 900, W = 0.02; // [kg m2], [N m s/rad] friction, [rad/s]
 

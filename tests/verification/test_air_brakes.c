@@ -2,7 +2,7 @@
 #include "support/check.h"
 
 #include "support/flight_text.h"
-#include "systems/flight.h"
+#include "systems/flight/flight.h"
 
 static ld_model model_of(const char *brakes, const char *rest)
 {

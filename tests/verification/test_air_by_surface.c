@@ -4,10 +4,10 @@
 
 #include <stdlib.h>
 
-#include "math/quaternion.h"
-#include "simulation/summary.h"
+#include "math/vectors/quaternion.h"
+#include "quantities/summary.h"
 #include "support/flight_text.h"
-#include "systems/flight.h"
+#include "systems/flight/flight.h"
 
 static const double pi = 3.14159265358979323846, degree = 0.017453292519943295;
 

@@ -1,8 +1,8 @@
 // The tube's finite elements and modes against closed forms, an exact transfer-matrix solution of
 // stepped tubes on supports, static sag, and moving force and mass on a simply supported beam.
-#include "elements/flexible_tube.h"
-#include "math/dense.h"
-#include "math/symmetric_eigen.h"
+#include "elements/tube/flexible_tube.h"
+#include "math/matrices/dense.h"
+#include "math/matrices/symmetric_eigen.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 // ctest: slow
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

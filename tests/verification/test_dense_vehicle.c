@@ -2,7 +2,7 @@
 // energy and kinematics, equilibrium and poles of the reference vehicle.
 #include "support/check.h"
 
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 
 #include "support/vehicle_case.h"
 

@@ -3,9 +3,9 @@
 // ctest: slow
 #include <stdlib.h>
 
+#include "launch/launch_run.h"
 #include "launchdyn/run.h"
 #include "scenario/scenario.h"
-#include "simulation/launch_run.h"
 #include "support/check.h"
 #include "support/dense_launch.h"
 #include "support/launching_state.h"

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "math/quaternion.h"
-#include "simulation/summary.h"
+#include "math/vectors/quaternion.h"
+#include "quantities/summary.h"
 #include "support/flight_text.h"
 
 static const double degree = 0.017453292519943295, g = 9.80665;

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 #include "support/dense_flight.h"
 
 static ld_model read_model(const char *const *sets, size_t count)

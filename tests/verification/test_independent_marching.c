@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/dense_simulation.h"
 #include "support/reference_model.h"
 

@@ -2,9 +2,9 @@
 // the gas inside and of all that has left, and closed forms of a rate that decays.
 #include "support/check.h"
 
-#include "math/quaternion.h"
+#include "math/vectors/quaternion.h"
 #include "support/flight_text.h"
-#include "systems/flight.h"
+#include "systems/flight/flight.h"
 
 // A motor of constant thrust in empty space without gravity, off the mass centre's way, so that c
 // moves, and burning unevenly between the axes.

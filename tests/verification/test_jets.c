@@ -2,7 +2,7 @@
 // and where the rockets are meanwhile.
 #include <stdlib.h>
 
-#include "simulation/propagator.h"
+#include "state/propagator.h"
 #include "support/check.h"
 #include "support/dense_vehicle.h"
 #include "support/fresh_launch.h"

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "scenario/scenario.h"
-#include "simulation/propagator.h"
+#include "state/propagator.h"
 #include "support/check.h"
 #include "support/dense_flight.h"
 #include "support/draw.h"

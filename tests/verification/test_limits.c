@@ -4,7 +4,7 @@
 // ctest: slow
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/dense_simulation.h"
 #include "support/launching_run.h"

@@ -4,7 +4,7 @@
 
 #include "support/check.h"
 #include "support/multibody_case.h"
-#include "systems/multibody.h"
+#include "systems/multibody/multibody.h"
 
 // Largest error of the accelerations over the largest acceleration; the forces that
 // the rounded reference accelerations need (the mass matrix's condition times their rounding).

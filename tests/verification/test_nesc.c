@@ -5,8 +5,8 @@
 
 #include <stdlib.h>
 
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 
 static const double degree = 0.017453292519943295;
 

@@ -6,7 +6,7 @@
 
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
-#include "systems/launcher.h"
+#include "systems/launching/launcher.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -4,16 +4,16 @@
 // LD_RESPONSE_BARE_SEEDS, _LOW_, _RUBBING_: on whole roads, on low ones, on whole ones with
 // friction of the adaptors; LD_RESPONSE_SINES: on so many sets of sines.
 // ctest: slow
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <stdlib.h>
 
 #include "launchdyn/loop.h"
 #include "launchdyn/response.h"
-#include "math/distributions.h"
+#include "math/curves/distributions.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
-#include "systems/orientating.h"
+#include "systems/bases/orientating.h"
 
 static const double two_pi = 6.283185307179586476925;
 

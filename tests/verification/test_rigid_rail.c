@@ -5,7 +5,7 @@
 // ctest: slow
 #include <stdlib.h>
 
-#include "simulation/summary.h"
+#include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 #include "support/rigid_rail.h"

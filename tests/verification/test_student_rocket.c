@@ -2,8 +2,8 @@
 // scripts/beside-rocketpy flies it, from the end of a rail that lets it go whole.
 #include "support/check.h"
 
+#include "quantities/summary.h"
 #include "scenario/scenario.h"
-#include "simulation/summary.h"
 #include "support/recorded_run.h"
 
 static const double degree = 0.017453292519943295;

@@ -3,7 +3,7 @@
 // ctest: slow
 #include <stdlib.h>
 
-#include "simulation/summary_quantities.h"
+#include "quantities/summary_quantities.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

@@ -10,7 +10,7 @@
 #include "support/launching_run.h"
 #include "support/launching_state.h"
 #include "support/reference_model.h"
-#include "systems/launcher.h"
+#include "systems/launching/launcher.h"
 
 enum { STATES = LD_MAX_STATES };
 

@@ -1,11 +1,11 @@
 // A vehicle on a road of small sines: heave and pitch of the chassis, and the platform's pitch,
 // against the transfer function of the linearised equations, (i omega - J)^-1 B.
 // ctest: slow
-#include "math/lapack.h"
+#include "math/matrices/lapack.h"
 #include <complex.h>
 #include <stdlib.h>
 
-#include "simulation/launch_state.h"
+#include "state/launch_state.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

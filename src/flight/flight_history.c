@@ -1,0 +1,117 @@
+// The history of a free flight: what is found at an instant, and the quantities that stand in it.
+#include <math.h>
+
+#include "flight/free_flight.h"
+#include "quantities/launch_quantities.h"
+#include "state/simulation.h"
+
+typedef struct flight_instant {
+    double t;
+    flight_pose pose;
+    direction_angles angles;
+    earth_motion center;
+    double mass, thrust;
+    flight_flow flow;
+    double acceleration, margin, drag_area;
+    flight_place place; // on a round or WGS 84 Earth
+} flight_instant;
+
+#define AT(member) .at = QUANTITY_AT(flight_instant, member)
+
+// clang-format off
+static const quantity flight[] = {
+    {"t", "s", "time on the run's clock", AT(t)},
+    {"rocket.x", "m", "rear adaptor's centre, in I", AT(pose.r_O1.x)},
+    {"rocket.y", "m", "rear adaptor's centre, in I", AT(pose.r_O1.y)},
+    {"rocket.z", "m", "rear adaptor's centre, in I", AT(pose.r_O1.z)},
+    {"rocket.vx", "m/s", "velocity of the rear adaptor against the ground, in I", AT(pose.v_O1.x)},
+    {"rocket.vy", "m/s", "velocity of the rear adaptor against the ground, in I", AT(pose.v_O1.y)},
+    {"rocket.vz", "m/s", "velocity of the rear adaptor against the ground, in I", AT(pose.v_O1.z)},
+    {"rocket.q0", "1", "quaternion of the rocket against I, scalar part", AT(pose.q_IB.w)},
+    {"rocket.q1", "1", "quaternion of the rocket against I, x", AT(pose.q_IB.x)},
+    {"rocket.q2", "1", "quaternion of the rocket against I, y", AT(pose.q_IB.y)},
+    {"rocket.q3", "1", "quaternion of the rocket against I, z", AT(pose.q_IB.z)},
+    {"rocket.wx", "rad/s", "rate of the rocket against inertial axes, in B", AT(pose.w.x)},
+    {"rocket.wy", "rad/s", "rate of the rocket against inertial axes, in B", AT(pose.w.y)},
+    {"rocket.wz", "rad/s", "rate of the rocket against inertial axes, in B", AT(pose.w.z)},
+    {"rocket.pitch", "rad", "pitch of the rocket's axis in I", AT(angles.pitch)},
+    {"rocket.yaw", "rad", "yaw of the rocket's axis in I, positive to the left", AT(angles.yaw)},
+    {"rocket.pitch_rate", "rad/s", "rate of rocket.pitch", AT(angles.pitch_rate)},
+    {"rocket.yaw_rate", "rad/s", "rate of rocket.yaw", AT(angles.yaw_rate)},
+    {"rocket.spin", "rad/s", "rate of the rocket against inertial axes about its axis", AT(pose.w.x)},
+    {"center.x", "m", "mass centre, in I", AT(center.r.x)},
+    {"center.y", "m", "mass centre, in I", AT(center.r.y)},
+    {"center.z", "m", "mass centre, in I", AT(center.r.z)},
+    {"center.vx", "m/s", "velocity of the mass centre against the ground, in I", AT(center.v.x)},
+    {"center.vy", "m/s", "velocity of the mass centre against the ground, in I", AT(center.v.y)},
+    {"center.vz", "m/s", "velocity of the mass centre against the ground, in I", AT(center.v.z)},
+    {"rocket.mass", "kg", "instantaneous mass", AT(mass)},
+    {"thrust", "N", "thrust", AT(thrust)},
+    {"altitude", "m", "altitude of the mass centre", AT(flow.altitude)},
+    {"density", "kg/m3", "density of the air there", AT(flow.density)},
+    {"airspeed", "m/s", "speed of the mass centre through the air", AT(flow.airspeed)},
+    {"mach", "1", "Mach number", AT(flow.mach)},
+    {"dynamic_pressure", "Pa", "half the density times the square of the airspeed", AT(flow.pressure)},
+    {"acceleration", "m/s2", "magnitude of the mass centre's acceleration against inertial axes", AT(acceleration)},
+    {"stability_margin", "1", "mass centre ahead of the centre of pressure, in reference diameters", AT(margin)},
+    {"angle_of_attack", "rad", "between the rocket's axis and its velocity through the air", AT(flow.angle_of_attack)},
+    {"drag_area", "m2", "of the parachute that the rocket hangs below, 0 before", AT(drag_area)},
+    {"wind.x", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.x)},
+    {"wind.y", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.y)},
+    {"wind.z", "m/s", "velocity of the air against the ground, in I", AT(flow.wind.z)},
+};
+static const quantity on_earth[] = {
+    {"latitude", "rad", "geodetic latitude of the mass centre", AT(place.geodetic.latitude)},
+    {"longitude", "rad", "longitude of the mass centre", AT(place.geodetic.longitude)},
+    {"v_north", "m/s", "velocity of the mass centre against the ground, to the north", AT(place.velocity_ned.x)},
+    {"v_east", "m/s", "velocity of the mass centre against the ground, to the east", AT(place.velocity_ned.y)},
+    {"v_down", "m/s", "velocity of the mass centre against the ground, down", AT(place.velocity_ned.z)},
+    {"heading", "rad", "of the rocket's axis, clockwise from north", AT(place.heading)},
+    {"local_pitch", "rad", "of the rocket's axis above the local horizon", AT(place.pitch)},
+    {"local_roll", "rad", "of the rocket, Ry(-heading) Rz(pitch) Rx(roll) against north, up, east", AT(place.roll)},
+};
+
+static const quantity_group groups[] = {
+    {.title = "flight", QUANTITY_ROWS(flight)},
+    {.title = "on a round or WGS 84 Earth", .each = EACH_EARTH, QUANTITY_ROWS(on_earth)},
+};
+// clang-format on
+
+_Static_assert((sizeof flight + sizeof on_earth) / sizeof *flight <= FLIGHT_MAX_COLUMNS,
+               "rows of flights have no room");
+
+const quantity_table flight_quantities = {groups, sizeof groups / sizeof *groups};
+
+ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error)
+{
+    const quantity_things things = {.count = {[EACH_RUN] = 1, [EACH_EARTH] = !system->earth.flat}};
+    return quantity_columns_make(columns, &(quantity_part){&flight_quantities, 0}, 1, &things,
+                                 error);
+}
+
+void flight_row(const flight_system *system, const quantity_columns *columns,
+                const flight_phase *phase, double t, const double *state,
+                double row[FLIGHT_MAX_COLUMNS])
+{
+    flight_instant now = {.t = t};
+    flight_leave(system, phase, t, state, &now.pose);
+    now.center = flight_center(system, t, state);
+    now.flow = flight_flow_at(system, t, state);
+    now.mass = flight_mass(system, phase, t).m;
+    now.thrust = flight_thrust(system, phase, t);
+    now.margin = flight_stability_margin(system, phase, t, now.flow.mach);
+    now.drag_area = flight_drag_area(phase, t);
+    if (phase->hangs) // a point has no axis
+        now.flow.angle_of_attack = now.margin = NAN;
+    flight_phase rated = *phase;
+    double rates[FLIGHT_STATES];
+    flight_rates(system, &rated, t, state, rates);
+    now.acceleration = v3_norm(v3_from(rates + FLIGHT_V));
+    m3 A_IB = q_matrix(now.pose.q_IB);
+    v3 turn = m3_apply_transposed(system->earth.A_EI, earth_rate(&system->earth));
+    v3 w = v3_sub(m3_apply(A_IB, now.pose.w), turn), axis = m3_column(A_IB, 0);
+    now.angles = direction_angles_of(axis, v3_cross(w, axis));
+    if (!system->earth.flat)
+        now.place = flight_place_at(system, t, state, A_IB);
+    quantity_row(columns, &now, row);
+}

@@ -1,0 +1,93 @@
+// The free flight of one rocket in time: from a state of systems/flight/flight.h to the ground.
+#ifndef LD_SIMULATION_FREE_FLIGHT_H
+#define LD_SIMULATION_FREE_FLIGHT_H
+
+#include "integration/dormand_prince.h"
+#include "quantities/measures.h"
+#include "quantities/measuring.h"
+#include "quantities/summary.h"
+#include "systems/flight/flight.h"
+
+// What is to be flown; the caller keeps what it points to.
+typedef struct free_flight {
+    const flight_system *system;
+    const ld_model *model;       // run.flight_tolerance, output_step_flight, flight_limit, measures
+    const measure_plan *measure; // [model->measure_count]
+    double t_ignition;           // [s] on the run's clock, as all times here
+    double t_start;
+    double t_end;    // infinity: to the ground
+    double launch_x; // [m] launch point in I
+    double launch_z;
+    const ld_run_options *options; // its progress is called; may be NULL
+    // Called for each row of the history (at the output steps, the start, key instants and the
+    // end); may be NULL.
+    ld_status (*row)(void *self, const flight_phase *phase, double t, const double *state,
+                     ld_error *error);
+    void *self;
+} free_flight;
+
+// Flies from `state` (which it leaves at the end); fills `flight`, `final` and the measures of the
+// flight of the rocket, adds to the summary's statistics and notes.
+// @return LD_OK, LD_ERR_LAUNCH (begins below ground, beyond the aerodynamic table, does not land),
+//         LD_ERR_NUMERIC, LD_ERR_INTERRUPTED, LD_ERR_MEMORY, or what `row` returned
+ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
+                          ld_rocket_summary *rocket, ld_summary *summary, ld_error *error);
+
+// The phase in which a flight begins at t.
+flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t);
+
+// History of a flight: columns, to be freed, and the values of a row.
+enum { FLIGHT_MAX_COLUMNS = 64 };
+ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error);
+void flight_row(const flight_system *system, const quantity_columns *columns,
+                const flight_phase *phase, double t, const double *state,
+                double row[FLIGHT_MAX_COLUMNS]);
+
+// ---- step by step, alone or beside others
+
+typedef struct flight_run {
+    const free_flight *job;
+    flight_phase phase;
+    dormand_prince steps;
+    ld_rocket_summary *rocket;
+    ld_summary *summary;
+    ld_error *error;
+    double next_output, last_row, output_from;
+    int64_t output_index;
+    double next_progress;
+    double next_look;        // [steps]
+    double apogee, t_apogee; // [m] as flight_height counts, [s]; NaN at the end: it rises still
+    flight_extremes extremes;
+    double t_beyond;   // when the Mach number first went past the table's last; NaN: not
+    double t_tumbling; // when the angle of attack first passed 90 degrees; NaN: not
+    double last_time;  // the end of the last step
+    double t_limit;
+    bool burnt_out, past_apex, landed; // in this flight
+    bool topped;                       // ended at its highest point
+    double t_topped;                   // when a step was ended there; NaN: none was
+    double t_open[LD_MAX_PARACHUTES];  // NaN: not triggered yet
+    bool opened[LD_MAX_PARACHUTES];
+    double t_full, area;      // when the one that fills is full [s], infinity: none does; then [m2]
+    quantity_columns columns; // where something is measured
+    measure_window window[LD_MAX_MEASURES];
+} flight_run;
+
+// Begins a flight from `state`; what the run is given stays where it is until its end.
+ld_status flight_run_begin(flight_run *self, const free_flight *job, const double *state,
+                           ld_rocket_summary *rocket, ld_summary *summary, ld_error *error);
+
+// Whether there are steps to come.
+bool flight_run_goes_on(const flight_run *self);
+
+// One of them.
+ld_status flight_run_step(flight_run *self);
+
+// After a step of `steps`, or where there was none to be had: what happened in it. It must be asked
+// where the step ended at its stop, or flight_watch says so, or so many steps as `next_look` are
+// done.
+ld_status flight_run_look(flight_run *self);
+
+// Fills what free_flight_run fills; the state at the end.
+void flight_run_end(flight_run *self, ld_status status, double *state);
+
+#endif

@@ -1,0 +1,249 @@
+// What happens at events and stops of a launch: the lock lets go, adaptors pass the tip, ignition,
+// corners.
+#include <assert.h>
+#include <math.h>
+
+#include "launch/launch_run.h"
+
+void launch_tell(ld_run *run, ld_event_kind kind, double t, int part)
+{
+    assert(run->event_count < MOST_EVENTS);
+    run->event[run->event_count++] =
+        (ld_event){.kind = kind, .t = t, .rocket = run->launch.current + 1, .part = part + 1};
+}
+
+static void pass_adaptor(ld_run *run, int i, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    ld_rocket_summary *rocket = &run->summary.rocket[self->current];
+    int count = self->launcher.launching.adaptors.count, ahead = 0;
+    double since = t - self->t_ignition;
+    const ld_adaptor *adaptor = self->rocket->adaptor;
+    for (int j = 0; j < count; j++)
+        ahead += adaptor[j].at > adaptor[i].at;
+    self->phase.passed[i] = true;
+    rocket->t_exit[i] = since;
+    launch_tell(run, LD_EVENT_EXIT, t, i);
+    if (i == 0) {
+        rocket->t_rear = since;
+        launch_record_exit(run, t, y);
+    } else if (ahead == 0) {
+        rocket->t_front = since;
+    } else if (count == 3) {
+        rocket->t_middle = since;
+    }
+}
+
+// Rear adaptor out: the rocket goes; the balance goes on without its energy.
+static void let_rocket_go(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    double with = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
+    self->phase.rocket = false;
+    double without = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
+    run->energy_start -= with - without;
+    if (self->current + 1 < self->model->firing_count)
+        launch_restart_output(run, t);
+}
+
+// Speed at a first touch, never so slow that damping grows beyond bounds.
+static double touch_speed(const launch_state *self, double speed)
+{
+    return fmax(speed, 1e-3 * self->launcher.launching.adaptors.law.v_0);
+}
+
+// The lock lets go; where the rocket then stands it meets the breech.
+static void let_go(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    self->phase.locked = false;
+    self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x + X_S]);
+    run->summary.rocket[self->current].t_release = t - self->t_ignition;
+    launch_tell(run, LD_EVENT_RELEASE, t, -1);
+}
+
+// A shoe's first touch of a surface, whose speed is kept for the whole contact.
+static bool touch_surfaces(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    const launching_system *launching = &self->launcher.launching;
+    int surfaces = launching->surfaces.count;
+    bool touched = false;
+    for (int i = launching->adaptors.count - 1; i >= 0; i--)
+        for (int k = 0; k < surfaces; k++) {
+            int which = i * surfaces + k;
+            if (self->phase.passed[i] ||
+                propagator_event(run->propagator, EVENT_SURFACE, which) <= 0)
+                continue;
+            double speed = launching_surface_rate(launching, y, i, k);
+            self->phase.surface_speed[i][k] = touch_speed(self, speed);
+            launch_tell(run, LD_EVENT_TOUCH, t, i);
+            touched = true;
+        }
+    return touched;
+}
+
+// Whether a stop of a slide pushes is said by its event, where one has been located, else by how it
+// lies, and holds up to the next: so its force goes on smoothly between two of them.
+bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event)
+{
+    launch_state *self = &run->launch;
+    int stops = LD_SLIDE_STOPS * model_slide_count(self->model);
+    const launcher_output *out = stops ? simulation_output(self, t, y) : NULL;
+    bool changed = false;
+    for (int i = 0; out && i < stops; i++) {
+        int *pushing = &self->phase.pushing[i / LD_SLIDE_STOPS][i % LD_SLIDE_STOPS];
+        int before = *pushing;
+        int located = at_event ? propagator_event(run->propagator, EVENT_STOP, i) : 0;
+        *pushing = located ? located : event_stop_press(self, i, &out->launching) > 0 ? 1 : -1;
+        if (*pushing == before || !(before || located))
+            continue;
+        launch_tell(run, *pushing > 0 ? LD_EVENT_STOP : LD_EVENT_LEAVE, t, i);
+        changed = true;
+    }
+    return changed;
+}
+
+// Switches what the events just located say; true where the equations changed.
+bool launch_switch_phase(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    int count = self->launcher.launching.adaptors.count;
+    bool changed = false;
+    if (self->phase.locked && propagator_event(run->propagator, EVENT_RELEASE, 0) < 0) {
+        let_go(run, t, y);
+        changed = true;
+    }
+    for (int i = count - 1; i >= 0; i--) {
+        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_EXIT, i) < 0) {
+            pass_adaptor(run, i, t, y);
+            changed = true;
+        }
+        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_TOUCH, i) > 0) {
+            // first touch: its speed is kept for the whole contact
+            self->phase.touch_speed[i] =
+                touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));
+            launch_tell(run, LD_EVENT_TOUCH, t, i);
+            changed = true;
+        }
+    }
+    if (propagator_event(run->propagator, EVENT_BREECH, 0) > 0) {
+        launching_output out;
+        launching_pose unused;
+        launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
+        self->phase.breech_speed = touch_speed(self, -out.x_dot[X_S]);
+        launch_tell(run, LD_EVENT_BREECH, t, -1);
+        changed = true;
+    }
+    changed |= touch_surfaces(run, t, y);
+    for (int j = 0; j < self->launcher.base.event_count; j++) {
+        int direction = propagator_event(run->propagator, EVENT_BASE, j);
+        if (direction)
+            launch_tell(run, direction > 0 ? LD_EVENT_LAND : LD_EVENT_LIFT, t, j);
+        changed |= direction > 0;
+    }
+    bool last = self->current + 1 == self->model->firing_count;
+    if (self->phase.passed[0] && self->phase.rocket &&
+        !(last && self->model->run.end != LD_END_TIME)) {
+        let_rocket_go(run, t, y);
+        changed = true;
+    }
+    return changed;
+}
+
+// A jump of the thrust, or the start itself, can carry the lock's force past the release force
+// without a crossing that the integrator could locate.
+void launch_let_go_at_once(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    if (!self->phase.locked || self->held_down)
+        return;
+    const launcher_output *at = simulation_output(self, t, y);
+    const launching_output *out = at ? &at->launching : NULL;
+    if (!out || !(out->lock_force > self->rocket->lock.release_force))
+        return;
+    run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
+    let_go(run, t, y);
+}
+
+// When the next tube takes the place of the one that is empty now.
+double launch_change_instant(const launch_state *self)
+{
+    return self->model->firing[self->current + 1].at - 0.2;
+}
+
+// The next instant at which the step must end: ignition, a corner of the thrust, the end; `none`
+// where nobody has said when.
+static double next_stop(const ld_run *run, double t, double none)
+{
+    const launch_state *self = &run->launch;
+    const base_system *base = &self->launcher.base;
+    double first, stop;
+    base_span(base, &first, &stop);
+    stop = fmin(stop, run->t_end);
+    if (base->kind->next_corner)
+        stop = fmin(stop, base->kind->next_corner(base, t));
+    if (self->air) // a gust's
+        stop = fmin(stop, wind_next_corner(&self->air->wind, t));
+    stop = fmin(stop, jets_next_corner(&self->jets));
+    if (t < self->t_ignition)
+        return fmin(stop, isinf(self->t_ignition) ? none : self->t_ignition);
+    if (self->current + 1 < self->model->firing_count)
+        stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
+                                             : launch_change_instant(self));
+    if (self->held_down)
+        stop = fmin(stop, self->t_ignition + self->rocket->lock.hold_down);
+    int next = self->piece + 1;
+    if (next < (int)self->motor->corner_count)
+        stop = fmin(stop, self->t_ignition + self->motor->t[next]);
+    if (model_has_pressure(self->model))
+        stop = fmin(stop, self->t_ignition + pressure_next_corner(&self->model->tubes.pressure,
+                                                                  self->pressure_piece));
+    return isinf(stop) ? none : stop;
+}
+
+// A step wants a finite end.
+double launch_next_stop(const ld_run *run, double t)
+{
+    return next_stop(run, t, t + 1);
+}
+
+double launch_next_instant(const ld_run *run, double t)
+{
+    return fmin(next_stop(run, t, INFINITY), launch_next_sample(run, t));
+}
+
+// The piece of the pressure that t has reached.
+static int pressure_piece_at(const launch_state *self, double t)
+{
+    const ld_pressure *pressure = &self->model->tubes.pressure;
+    int piece = self->pressure_piece;
+    while (model_has_pressure(self->model) && t >= self->t_ignition &&
+           t >= self->t_ignition + pressure_next_corner(pressure, piece))
+        piece++;
+    return piece;
+}
+
+// At a stop: ignition lights the motor or lets the pressure on, a corner begins the next piece of
+// the curve of either, or of what drives the base; the lock may let go.
+bool launch_pass_stop(ld_run *run, double t)
+{
+    launch_state *self = &run->launch;
+    const base_system *base = &self->launcher.base;
+    int before = self->piece;
+    while (t >= self->t_ignition && self->piece + 1 < (int)self->motor->corner_count &&
+           t >= self->t_ignition + self->motor->t[self->piece + 1])
+        self->piece++;
+    int pressed = self->pressure_piece;
+    self->pressure_piece = pressure_piece_at(self, t);
+    bool burning = self->piece != before || self->pressure_piece != pressed;
+    bool held = self->held_down;
+    self->held_down &= t < self->t_ignition + self->rocket->lock.hold_down;
+    bool driven = base->kind->next_corner != NULL;
+    bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
+    if (base_corner || (burning && t > self->t_ignition))
+        launch_tell(run, LD_EVENT_CORNER, t, -1);
+    return jets_pass_corners(&self->jets, t) || burning || driven || held != self->held_down;
+}

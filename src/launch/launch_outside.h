@@ -1,0 +1,62 @@
+// A launch whose steps an integrator outside takes, as the importer of an FMU for model exchange
+// does: it asks for rates and for what goes through zero at any time and state, tells where a step
+// has ended, and lets happen what happens there.
+//
+// Its continuous states are those of the launch but for a base's that is told where it is, which
+// are what was told.
+#ifndef LD_SIMULATION_LAUNCH_OUTSIDE_H
+#define LD_SIMULATION_LAUNCH_OUTSIDE_H
+
+#include "launchdyn/run.h"
+#include "systems/launching/launcher.h"
+
+// Whether one of this simulation can be taken so; else why not (LD_ERR_MISSING).
+ld_status launch_outside_check(const ld_simulation *simulation, ld_error *error);
+
+// ld_run_begin() and ld_run_load() of one whose steps are taken outside.
+ld_status run_begin_outside(const ld_simulation *simulation, const ld_run_options *options,
+                            ld_run **out, ld_error *error);
+ld_status run_load_outside(const ld_simulation *simulation, const void *bytes, size_t size,
+                           ld_run **out, ld_error *error);
+
+// ---- what it has
+
+enum { OUTSIDE_NAME_SIZE = 64 };
+
+// A state or what goes through zero at an event, as an importer sees it.
+typedef struct outside_quantity {
+    char name[OUTSIDE_NAME_SIZE]; // "tube.position.x"; "exit.1"
+    const char *unit;             // SI; "": none, or not told
+    const char *rate_unit;        // of a state
+    const char *description;
+} outside_quantity;
+
+int launch_outside_states(const ld_run *run);
+outside_quantity launch_outside_state(const ld_run *run, int i);
+int launch_outside_indicators(const ld_run *run); // LD_MAX_STATES at most
+outside_quantity launch_outside_indicator(const ld_run *run, int i);
+// How large a change of each state counts, relative to the others [states].
+void launch_outside_nominals(const ld_run *run, double *nominal);
+
+// ---- where it is, at any time and state
+
+// The present is t, the states x [launch_outside_states()], and of a base that is told the frame
+// (else unread). LD_ERR_INPUT: one that is not finite.
+ld_status launch_outside_place(ld_run *run, double t, const double *x, const ld_base_frame *base,
+                               ld_error *error);
+void launch_outside_get(ld_run *run, double *x);
+// There, on any run: LD_ERR_NUMERIC where the equations have no solution.
+ld_status launch_outside_rates(ld_run *run, double *rate, ld_error *error);
+ld_status launch_outside_values(ld_run *run, double *indicator, ld_error *error);
+
+// ---- steps
+
+// When the next step must end [s]; infinity: at no known instant.
+double launch_outside_next(const ld_run *run);
+// A step has ended at the present; `happens`: something does here, by launch_outside_happen().
+ld_status launch_outside_accept(ld_run *run, bool *happens, ld_error *error);
+// What happens at the present, at which a step then ends, has happened; `happened`: something has,
+// and states and equations may be others.
+ld_status launch_outside_happen(ld_run *run, bool *happened, ld_error *error);
+
+#endif

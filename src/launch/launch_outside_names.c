@@ -1,0 +1,128 @@
+// What the states and the events of a launch are called where steps are taken outside.
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "launch/launch_outside.h"
+#include "launch/launch_run.h"
+
+// States that stand together: a name for each ('|' between them) behind the first part of it.
+typedef struct named_states {
+    int at, count;
+    const char *first, *parts; // parts NULL: numbered from 1
+    const char *unit, *rate_unit, *description;
+} named_states;
+
+static outside_quantity LD_PRINTF(4, 5)
+    quantity_as(const char *unit, const char *rate_unit, const char *description,
+                const char *format, ...)
+{
+    outside_quantity made = {.unit = unit, .rate_unit = rate_unit, .description = description};
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(made.name, sizeof made.name, format, arguments);
+    va_end(arguments);
+    return made;
+}
+
+// Part i of "x|y|z".
+static int part_at(const char *parts, int i, const char **part)
+{
+    int length = 0;
+    for (; i > 0 && *parts; parts++)
+        i -= *parts == '|';
+    while (parts[length] && parts[length] != '|')
+        length++;
+    *part = parts;
+    return length;
+}
+
+static outside_quantity name_state(const named_states *group, int i)
+{
+    if (!group->parts)
+        return quantity_as(group->unit, group->rate_unit, group->description, "%s%d", group->first,
+                           i + 1);
+    const char *part;
+    int length = part_at(group->parts, i, &part);
+    return quantity_as(group->unit, group->rate_unit, group->description, "%s%.*s", group->first,
+                       length, part);
+}
+
+#define WORK_NAME(place, name, is) [place] = {name, is},
+#define BASE_NAME(place, name, is) [POWER_COUNT + (place)] = {name, is},
+#define MARCHING_NAME(place, name, is)                                                             \
+    [(int)POWER_COUNT + (int)ORIENTATING_POWERS + (place)] = {name, is},
+
+static outside_quantity name_work(const launcher_system *launcher, int i)
+{
+    static const struct {
+        const char *name, *is;
+    } work[POWER_COUNT + VEHICLE_POWERS] = {LAUNCHING_WORKS(WORK_NAME) OPEN_AIR_WORKS(
+        WORK_NAME) PRESSURE_WORKS(WORK_NAME) RECOIL_WORKS(WORK_NAME) ORIENTATING_WORKS(BASE_NAME)
+                                                MARCHING_WORKS(MARCHING_NAME) JET_WORKS(BASE_NAME)};
+    int launching = launcher->launching.work_count;
+    int place = i < launching ? i : POWER_COUNT + i - launching;
+    return quantity_as("J", "W", work[place].is, "work.%s", work[place].name);
+}
+
+outside_quantity launch_outside_state(const ld_run *run, int i)
+{
+    static const char xyz[] = "x|y|z";
+    const launcher_system *launcher = &run->launch.launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    const base_system *base = &launcher->base;
+    const named_states groups[] = {
+        {at->r, 3, "tube.position.", xyz, "m", "m/s", "Origin of the tube's frame R, in I"},
+        {at->quaternion, 4, "tube.quaternion.", "0|1|2|3", "", "1/s", "R against I, scalar first"},
+        {at->v, 3, "tube.velocity.", xyz, "m/s", "m/s2", "Velocity of R's origin, in R"},
+        {at->w, 3, "tube.rate.", xyz, "rad/s", "rad/s2", "Angular velocity of R, in R"},
+        {at->q, at->nq, "mode.", NULL, "kg0.5.m", "kg0.5.m/s",
+         "Modal coordinate (bending y, z, torsion, axial)"},
+        {at->q_dot, at->nq, "mode_rate.", NULL, "kg0.5.m/s", "kg0.5.m/s2",
+         "Rate of the modal coordinate"},
+        {at->x, 3, "rocket.", "s|y|z", "m", "m/s",
+         "Rear adaptor of the rocket in the tube: travel, offsets"},
+        {at->x + 3, 3, "rocket.", "psi|theta|gamma", "rad", "rad/s",
+         "Angles of the rocket in the tube"},
+        {at->V, 3, "rocket.velocity.", xyz, "m/s", "m/s2",
+         "Velocity of the rocket's rear point, in R"},
+        {at->V + 3, 3, "rocket.rate.", xyz, "rad/s", "rad/s2",
+         "Angular velocity of the rocket, in R"},
+    };
+    if (i >= launcher->base_at && base->kind->tell) // those are none
+        i += base->state_count;
+    if (i >= launcher->work_at)
+        return name_work(launcher, i - launcher->work_at);
+    for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
+        if (i >= groups[k].at && i < groups[k].at + groups[k].count)
+            return name_state(&groups[k], i - groups[k].at);
+    return quantity_as("", "", "State of what carries the tube", "base.%d",
+                       i - launcher->base_at + 1);
+}
+
+outside_quantity launch_outside_indicator(const ld_run *run, int i)
+{
+    const event *one = &propagator_events(run->propagator)->event[i];
+    int surfaces = run->launch.launcher.launching.surfaces.count, index = one->index;
+    switch (one->kind) {
+    case EVENT_RELEASE:
+        return quantity_as("", "", "The lock lets go where it falls through zero", "release");
+    case EVENT_EXIT:
+        return quantity_as("", "", "The adaptor passes the tip where it falls through zero",
+                           "exit.%d", index + 1);
+    case EVENT_TOUCH:
+        return quantity_as("", "", "The adaptor touches where it rises through zero", "touch.%d",
+                           index + 1);
+    case EVENT_SURFACE:
+        return quantity_as("", "", "The adaptor touches the surface where it rises through zero",
+                           "touch.%d.%d", index / surfaces + 1, index % surfaces + 1);
+    case EVENT_BASE:
+        return quantity_as("", "", "The wheel lands where it rises through zero", "wheel.%d",
+                           index + 1);
+    case EVENT_BREECH:
+        return quantity_as("", "", "The rocket touches the breech where it rises through zero",
+                           "breech");
+    default:
+        return quantity_as("", "", "The slide's stop pushes while it is positive", "stop.%d.%d",
+                           index / LD_SLIDE_STOPS + 1, index % LD_SLIDE_STOPS + 1);
+    }
+}

@@ -1,0 +1,233 @@
+// Rules that tie keys of the vehicle and its platforms together.
+#include "model/rules/rules.h"
+
+#define RADIAN (180 / 3.14159265358979323846) // [deg]
+
+// ---- road
+
+static void coherence_rules(const rule_set *rules, const ld_road *road)
+{
+    bool coherent = road->tracks == LD_TRACKS_COHERENT;
+    rising_rule(rules, "base.road.coherence.#", &road->coherence, "1/m", false);
+    if (coherent && road->coherence.rows == 0)
+        broken(rules, "base.road.coherence", 0,
+               "missing; coherent tracks need the table of g over spatial frequency");
+    if (road->coherence.rows > 0 && !coherent && (int)road->tracks >= 0)
+        broken(rules, "base.road.coherence", 0, "goes with tracks: coherent");
+}
+
+// x of the chassis at the first instant and at the last one that is known of.
+static void marching_span(const ld_model *model, double *first, double *last)
+{
+    double speed = model->base.vehicle.speed, end = 0;
+    for (int i = 0; i < model->firing_count; i++)
+        end = fmax(end, model->firing[i].at);
+    if (model->run.end == LD_END_TIME)
+        end += model->run.end_time;
+    *first = -speed * model->run.lead_in;
+    *last = speed * end;
+}
+
+// The table must lie under the wheels for the whole run, as far as that can be known before it.
+static void profile_rules(const rule_set *rules, const ld_road *road)
+{
+    const ld_vehicle *vehicle = &rules->model->base.vehicle;
+    const ld_table *profile = &road->profile;
+    const char *path = "base.road.table";
+    double first, last, behind = INFINITY, ahead = -INFINITY;
+    if (profile->rows == 0)
+        return;
+    rising_rule(rules, "base.road.table.#", profile, "m", false);
+    if (profile->rows == 1) {
+        broken(rules, path, 0, "needs at least two rows");
+        return;
+    }
+    marching_span(rules->model, &first, &last);
+    for (int i = 0; i < vehicle->wheel_count; i++) {
+        behind = fmin(behind, vehicle->wheel[i].mount[0]);
+        ahead = fmax(ahead, vehicle->wheel[i].mount[0]);
+    }
+    double begin = profile->data[0], end = profile->data[(profile->rows - 1) * profile->columns];
+    if (begin > first + behind || end < last + ahead)
+        broken(rules, path, 0,
+               "does not cover the run: it goes from %g m to %g m, the wheels from %g m "
+               "(speed, lead_in, mounts) to %g m at least",
+               begin, end, first + behind, last + ahead);
+}
+
+static void road_rules(const rule_set *rules)
+{
+    const ld_road *road = &rules->model->base.vehicle.road;
+    if (road->form != LD_ROAD_SUM)
+        return;
+    if (road->iso_class == LD_ROAD_SMOOTH && road->sine_count == 0 && road->bump_count == 0 &&
+        road->profile.rows == 0)
+        broken(rules, "base.road", 0,
+               "nothing gives it a height: give class, sines, bumps or table, or flat: true");
+    if (road->wavelengths[0] >= road->wavelengths[1])
+        broken(rules, "base.road.wavelengths", 0,
+               "the shortest, %g m, must be less than the longest, %g m", road->wavelengths[0],
+               road->wavelengths[1]);
+    if (road->places[0] >= road->places[1])
+        broken(rules, "base.road.places", 0,
+               "the left track, z = %g m, must lie left of the right one, z = %g m (z is positive "
+               "to the right)",
+               road->places[0], road->places[1]);
+    coherence_rules(rules, road);
+    profile_rules(rules, road);
+}
+
+// ---- wheels
+
+// Whether the wheels, seen from above, stand on one line.
+static bool on_one_line(const ld_vehicle *vehicle)
+{
+    double n = vehicle->wheel_count, x = 0, z = 0, xx = 0, xz = 0, zz = 0;
+    for (int i = 0; i < vehicle->wheel_count; i++) {
+        x += vehicle->wheel[i].mount[0] / n;
+        z += vehicle->wheel[i].mount[2] / n;
+    }
+    for (int i = 0; i < vehicle->wheel_count; i++) {
+        double dx = vehicle->wheel[i].mount[0] - x, dz = vehicle->wheel[i].mount[2] - z;
+        xx += dx * dx;
+        xz += dx * dz;
+        zz += dz * dz;
+    }
+    return xx * zz - xz * xz <= 1e-12 * xx * zz;
+}
+
+static void wheel_rules(const rule_set *rules)
+{
+    const ld_vehicle *vehicle = &rules->model->base.vehicle;
+    int driven = 0;
+    for (int i = 0; i < vehicle->wheel_count; i++) {
+        driven += vehicle->wheel[i].driven;
+        for (int k = 0; k < i; k++)
+            if (vehicle->wheel[i].name[0] &&
+                strcmp(vehicle->wheel[i].name, vehicle->wheel[k].name) == 0)
+                broken(rules, "base.wheels.#.name", i + 1, "\"%s\" is the name of wheel %d",
+                       vehicle->wheel[i].name, k + 1);
+    }
+    if (vehicle->wheel_count >= 3 && on_one_line(vehicle))
+        broken(rules, "base.wheels", 0,
+               "they stand on one line, seen from above; nothing could stand on them");
+    if (vehicle->speed > 0 && driven == 0)
+        broken(rules, "base.drive.wheels", 0, "no wheel is driven; nothing would hold %g m/s",
+               vehicle->speed);
+}
+
+static void suspension_rules(const rule_set *rules)
+{
+    const ld_suspension *s = &rules->model->base.vehicle.suspension;
+    bool stop = !isnan(s->bump_stop.compression) || !isnan(s->bump_stop.extension);
+    if (stop && isnan(s->bump_stop.stiffness))
+        broken(rules, "base.suspension.bump_stop", 0,
+               "stiffness is missing; a stop needs it, in N/m, > 0 N/m");
+    if (!stop && !isnan(s->bump_stop.stiffness))
+        broken(rules, "base.suspension.bump_stop", 0,
+               "compression and extension are missing; give the travel of one or both stops");
+}
+
+// ---- platforms
+
+static void command_rules(const rule_set *rules, const char *path, const ld_table *command,
+                          bool pitch)
+{
+    char row[96];
+    snprintf(row, sizeof row, command->rows > 1 ? "%s.#" : "%s", path);
+    rising_rule(rules, row, command, "s", false);
+    for (size_t i = 0; i < command->rows && pitch; i++) {
+        double angle = command->data[i * command->columns + 1] * RADIAN;
+        if (fabs(angle) >= 80)
+            broken(rules, row, (int)i + 1,
+                   "%g deg; a pitch command must lie between -80 and "
+                   "80 deg",
+                   angle);
+    }
+}
+
+// What a digital loop alone has.
+static void sample_rules(const rule_set *rules, const char *path, const ld_stabiliser *s)
+{
+    const struct {
+        const char *name;
+        bool given;
+    } option[] = {{"delay", s->delay > 0},
+                  {"sensor_noise", s->noise.angle > 0 || s->noise.rate > 0},
+                  {"sensor_resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
+    for (int i = 0; i < 3 && s->sample == 0; i++)
+        if (option[i].given)
+            broken(rules, path, 0, "sample is missing; %s needs it, in s, > 0 s and <= 10 s",
+                   option[i].name);
+    if (s->sample > 0 && s->delay > s->sample)
+        broken(rules, path, 0, "a delay of %g s is longer than the sample period of %g s", s->delay,
+               s->sample);
+}
+
+// Without a lock the hinge needs its stabiliser whole, its gains or a cascade.
+static void gain_rules(const rule_set *rules, const char *path, const ld_stabiliser *s)
+{
+    bool cascade = s->cascade.present;
+    const struct {
+        const char *name;
+        double value;
+    } gain[] = {{"kp", cascade ? 0 : s->kp},
+                {"kd", cascade ? 0 : s->kd},
+                {"torque_limit", s->torque_limit}};
+    char missing[64] = "";
+    for (int i = 0; i < 3; i++)
+        if (isnan(gain[i].value)) {
+            strcat(missing, missing[0] ? ", " : "");
+            strcat(missing, gain[i].name);
+        }
+    if (missing[0])
+        broken(rules, path, 0, "missing: %s; only a hinge with a lock does without", missing);
+    if (s->slew > 0 && s->bandwidth == 0)
+        broken(rules, path, 0,
+               "bandwidth is missing; a slew limit needs it, in Hz, > 0 Hz and <= 10000 Hz");
+    sample_rules(rules, path, s);
+}
+
+// A jet is there from the mouth on and ends within its table.
+static void jet_rules(const rule_set *rules, const ld_table *jet)
+{
+    if (jet->rows == 0)
+        return;
+    rising_rule(rules, "platform.jet.#", jet, "m", false);
+    const double *last = &jet->data[(jet->rows - 1) * jet->columns];
+    if (jet->data[0] > 0)
+        broken(rules, "platform.jet.1", 0, "the first distance must be 0 m, not %g m",
+               jet->data[0]);
+    if (last[1] > 0)
+        broken(rules, "platform.jet.#", (int)jet->rows,
+               "the last force must be 0 N, not %g N: beyond it there is none", last[1]);
+    if (jet->rows == 1)
+        broken(rules, "platform.jet", 0, "needs at least two rows");
+}
+
+static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,
+                         bool pitch)
+{
+    char path[64];
+    snprintf(path, sizeof path, "platform.%s.inertia", name);
+    inertia_rule(rules, path, turret->inertia, NULL);
+    snprintf(path, sizeof path, "platform.%s.stabiliser.command", name);
+    command_rules(rules, path, &turret->stabiliser.command, pitch);
+    snprintf(path, sizeof path, "platform.%s.stabiliser", name);
+    if (!turret->lock.present)
+        gain_rules(rules, path, &turret->stabiliser);
+}
+
+void vehicle_rules(const rule_set *rules)
+{
+    const ld_platform *platform = &rules->model->platform;
+    jet_rules(rules, &platform->jet);
+    if (!model_has_vehicle(rules->model))
+        return;
+    road_rules(rules);
+    wheel_rules(rules);
+    suspension_rules(rules);
+    inertia_rule(rules, "platform.chassis.inertia", platform->chassis_inertia, NULL);
+    turret_rules(rules, "azimuth", &platform->azimuth, false);
+    turret_rules(rules, "elevation", &platform->elevation, true);
+}

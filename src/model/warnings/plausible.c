@@ -1,0 +1,308 @@
+// The walk over the rules of plausibility, and the quantities that they share.
+#include "model/warnings/plausible.h"
+
+#include <string.h>
+
+#include "math/functions.h"
+
+enum { TABLES = 6, MOST_RULES = 256 };
+static const plausible_rule *const tables[TABLES] = {plausible_of_tube,       plausible_of_base,
+                                                     plausible_of_rocket,     plausible_of_vehicle,
+                                                     plausible_of_stabiliser, plausible_of_run};
+
+// ---- quantities
+
+double plausible_bore(const ld_model *model)
+{
+    bool guides = model_has_launcher(model) && !model_has_surfaces(model);
+    return guides ? model->tubes.section[0].bore_radius : NAN;
+}
+
+double plausible_tube_mass(const ld_tubes *tubes)
+{
+    double mass = tubes->tail.mass;
+    for (int i = 0; i < tubes->section_count; i++) {
+        const ld_section *s = &tubes->section[i];
+        double end = i + 1 < tubes->section_count ? s[1].from : tubes->length;
+        mass += s->mass_per_length * (end - s->from);
+    }
+    for (int i = 0; i < tubes->point_mass_count; i++)
+        mass += tubes->point_mass[i].mass;
+    return mass;
+}
+
+double plausible_peak_thrust(const ld_motor *motor)
+{
+    double peak = 0;
+    for (size_t i = 0; i < motor->thrust.rows; i++)
+        peak = fmax(peak, motor->thrust.data[2 * i + 1]);
+    return peak * motor->thrust_scale;
+}
+
+double plausible_impulse(const ld_motor *motor)
+{
+    double impulse = 0;
+    for (size_t i = 1; i < motor->thrust.rows; i++) {
+        const double *a = &motor->thrust.data[2 * (i - 1)], *b = &motor->thrust.data[2 * i];
+        impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
+    }
+    return impulse * motor->thrust_scale * motor->time_scale;
+}
+
+double plausible_burn_time(const ld_motor *motor)
+{
+    const ld_table *thrust = &motor->thrust;
+    return thrust->rows > 0 ? thrust->data[2 * (thrust->rows - 1)] * motor->time_scale : 0;
+}
+
+double plausible_peak_pressure(const ld_model *model)
+{
+    const ld_pressure *given = &model->tubes.pressure;
+    const ld_table *table =
+        given->form == LD_PRESSURE_OVER_TIME ? &given->over_time : &given->over_travel;
+    const double pi = 3.14159265358979323846;
+    double bore = plausible_bore(model), peak = 0;
+    if (!model_has_pressure(model))
+        return 0;
+    for (size_t i = 0; i < table->rows; i++)
+        peak = fmax(peak, table->data[2 * i + 1]);
+    if (given->form == LD_PRESSURE_OF_GAS)
+        peak = given->pressure;
+    return fmax(0, given->scale * peak - given->ambient) * pi * bore * bore;
+}
+
+double plausible_peak_drive(const ld_model *model)
+{
+    return plausible_peak_thrust(&model->rocket.motor) + plausible_peak_pressure(model);
+}
+
+// The number with that path; NaN where the scenario has none.
+static double number_at(const ld_model *model, const char *path)
+{
+    char why[384];
+    field_place place;
+    return field_locate(model, path, &place, why, sizeof why) ? field_get(model, &place) : NAN;
+}
+
+double plausible_weight_along(const ld_model *model)
+{
+    const ld_table *command = &model->platform.elevation.stabiliser.command;
+    double lowest = number_at(model, "base.elevation");
+    for (size_t i = 0; i < command->rows && model_has_vehicle(model); i++)
+        lowest = fmin(lowest, command->data[2 * i + 1]);
+    return model->rocket.full.mass * model->gravity * sin(lowest);
+}
+
+double plausible_time_in_tube(const ld_model *model)
+{
+    double weight = plausible_weight_along(model);
+    double force = plausible_peak_drive(model) - (isnan(weight) ? 0 : weight);
+    double way = model->tubes.length - model->rocket.start_at;
+    return force > 0 ? sqrt(2 * way * model->rocket.full.mass / force) : NAN;
+}
+
+double plausible_front(const ld_model *model)
+{
+    double front = NAN;
+    for (int i = 0; i < model->rocket.adaptor_count && model_has_launcher(model); i++)
+        front = fmax(front, model->rocket.adaptor[i].at);
+    return front;
+}
+
+// ---- the walk
+
+// How many entries the list has in which # stands; 1 where there is none.
+static int entries(const ld_model *model, const char *path)
+{
+    char list[LD_MAX_PATH], why[384];
+    field_value value;
+    const char *mark = strstr(path, ".#");
+    snprintf(list, sizeof list, "%.*s", mark ? (int)(mark - path) : 0, path);
+    if (!mark || !field_reach(model, list, &value, why, sizeof why))
+        return 1;
+    bool many = value.row->kind == FIELD_LIST || value.row->kind == FIELD_FACTORS;
+    return many ? field_switch(value.base, value.row) : 1;
+}
+
+static void put_entry(char path[LD_MAX_PATH], const char *pattern, const char *entry)
+{
+    const char *mark = strchr(pattern, '#');
+    if (mark)
+        snprintf(path, LD_MAX_PATH, "%.*s%s%s", (int)(mark - pattern), pattern, entry, mark + 1);
+    else
+        snprintf(path, LD_MAX_PATH, "%s", pattern);
+}
+
+// Whether the scenario has the key; of one that ends with #, the list or table.
+static bool is_there(const ld_model *model, const char *path)
+{
+    char list[LD_MAX_PATH], why[384];
+    field_place place;
+    field_value value;
+    const char *mark = strstr(path, ".#");
+    snprintf(list, sizeof list, "%.*s", mark ? (int)(mark - path) : LD_MAX_PATH - 1, path);
+    return field_locate(model, list, &place, why, sizeof why) ||
+           field_reach(model, list, &value, why, sizeof why);
+}
+
+static plausible_pair find_pair(const plausible_rule *rule, const plausible_entry *at,
+                                const char *entry)
+{
+    char path[LD_MAX_PATH];
+    bool whole = strchr(rule->path, '#') && !strstr(rule->path, "#.");
+    put_entry(path, rule->path, whole ? "#" : entry);
+    if (rule->find)
+        return is_there(at->model, path) ? rule->find(at) : plausible_nothing();
+    plausible_pair pair = plausible_alone(number_at(at->model, path));
+    if (rule->other) {
+        put_entry(path, rule->other, entry);
+        pair.other = number_at(at->model, path);
+    }
+    return pair;
+}
+
+// Whether the rule says something about the entry; then the note, whose path it fills.
+static bool is_noted(const plausible_rule *rule, const plausible_entry *at, char path[LD_MAX_PATH],
+                     plausible_note *note)
+{
+    char number[16];
+    snprintf(number, sizeof number, "%d", at->i + 1);
+    plausible_pair pair = find_pair(rule, at, number);
+    if (pair.row)
+        snprintf(number, sizeof number, "%d", pair.row);
+    put_entry(path, rule->path, pair.entry ? pair.entry : number);
+    *note =
+        (plausible_note){rule, path, pair.unit ? pair.unit : rule->unit, pair.value, pair.other};
+    return pair.value < rule->low * pair.other || pair.value > rule->high * pair.other;
+}
+
+// Calls `report` for each note, whatever it rests on.
+static void look_at_all(const ld_model *model, plausible_report *report, void *self)
+{
+    char path[LD_MAX_PATH];
+    plausible_note note;
+    for (int i = 0; i < TABLES; i++)
+        for (const plausible_rule *rule = tables[i]; rule->path; rule++)
+            for (int k = 0, count = entries(model, rule->path); k < count; k++)
+                if (is_noted(rule, &(plausible_entry){model, k}, path, &note))
+                    report(self, &note);
+}
+
+// Rules that have a note.
+typedef struct noted_rules {
+    const plausible_rule *rule[MOST_RULES];
+    int count;
+    plausible_report *report;
+    void *self;
+} noted_rules;
+
+static void note_rule(void *self, const plausible_note *note)
+{
+    noted_rules *noted = self;
+    bool known = noted->count > 0 && noted->rule[noted->count - 1] == note->rule;
+    if (!known && noted->count < MOST_RULES)
+        noted->rule[noted->count++] = note->rule;
+}
+
+// Whether the key of a rule is `key` or lies below it; NULL is no key.
+static bool is_below(const plausible_rule *rule, const char *key)
+{
+    size_t length = key ? strlen(key) : 0;
+    return length > 0 && strncmp(rule->path, key, length) == 0 &&
+           (rule->path[length] == '.' || rule->path[length] == '\0');
+}
+
+// Reports a note unless what it rests on is noted.
+static void report_first(void *self, const plausible_note *note)
+{
+    const noted_rules *noted = self;
+    for (int i = 0; i < noted->count; i++)
+        if (noted->rule[i] != note->rule && (is_below(noted->rule[i], note->rule->of) ||
+                                             is_below(noted->rule[i], note->rule->other)))
+            return;
+    noted->report(noted->self, note);
+}
+
+void plausible_look(const ld_model *model, plausible_report *report, void *self)
+{
+    noted_rules noted = {.report = report, .self = self};
+    look_at_all(model, note_rule, &noted);
+    if (noted.count > 0)
+        look_at_all(model, report_first, &noted);
+}
+
+// ---- the document
+
+static const char azimuth[] = "platform.azimuth", elevation[] = "platform.elevation";
+
+static bool is_of_elevation(const plausible_rule *rule)
+{
+    return strncmp(rule->path, elevation, strlen(elevation)) == 0;
+}
+
+// Whether it is a rule of the azimuth's hinge that the elevation's has, too.
+static bool is_of_both(const plausible_rule *rule)
+{
+    if (strncmp(rule->path, azimuth, strlen(azimuth)) != 0)
+        return false;
+    for (int i = 0; i < TABLES; i++)
+        for (const plausible_rule *r = tables[i]; r->path; r++)
+            if (is_of_elevation(r) &&
+                strcmp(r->path + strlen(elevation), rule->path + strlen(azimuth)) == 0 &&
+                strcmp(r->what ? r->what : "", rule->what ? rule->what : "") == 0)
+                return true;
+    return false;
+}
+
+// A key's path with N for the entries of lists, both hinges of the platform as one; or words.
+static void write_path(FILE *stream, const plausible_rule *rule, const char *path)
+{
+    char text[LD_MAX_PATH];
+    put_entry(text, path, "N");
+    if (strchr(text, ' '))
+        fprintf(stream, "%s", text);
+    else if (is_of_both(rule) && strncmp(text, azimuth, strlen(azimuth)) == 0)
+        fprintf(stream, "`%s, elevation%s`", azimuth, text + strlen(azimuth));
+    else
+        fprintf(stream, "`%s`", text);
+}
+
+static void write_bounds(FILE *stream, const plausible_rule *rule)
+{
+    bool angle = strcmp(rule->unit, "rad") == 0 && !rule->other;
+    double scale = angle ? 180 / 3.14159265358979323846 : 1;
+    bool low = isfinite(rule->low), high = isfinite(rule->high);
+    if (low && high)
+        fprintf(stream, "%.5g to ", rule->low * scale);
+    else
+        fprintf(stream, low ? "at least " : "at most ");
+    double last = high ? rule->high : rule->low;
+    bool once = rule->other && last == 1 && !(low && high);
+    if (!once)
+        fprintf(stream, "%.5g", last * scale);
+    if (rule->other) {
+        fprintf(stream, once ? "" : " times ");
+        write_path(stream, rule, rule->other);
+    } else {
+        fprintf(stream, "%s%s", rule->unit[0] ? " " : "", angle ? "deg" : rule->unit);
+    }
+}
+
+static void write_rule(FILE *stream, const plausible_rule *rule)
+{
+    fprintf(stream, "| ");
+    write_path(stream, rule, rule->path);
+    fprintf(stream, "%s%s | ", rule->what ? ": " : "", rule->what ? rule->what : "");
+    write_bounds(stream, rule);
+    fprintf(stream, " |\n");
+}
+
+void plausible_write_markdown(FILE *stream)
+{
+    fprintf(stream, "\n| key | expected |\n| --- | --- |\n");
+    for (int i = 0; i < TABLES; i++)
+        for (const plausible_rule *rule = tables[i]; rule->path; rule++)
+            if (!is_of_elevation(rule))
+                write_rule(stream, rule);
+    fprintf(stream, "\n");
+}

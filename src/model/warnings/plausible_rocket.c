@@ -1,0 +1,410 @@
+// Plausibility of the rocket, its motor and its aerodynamics.
+#include "math/functions.h"
+#include "model/warnings/plausible.h"
+
+#define PI 3.14159265358979323846
+#define FIND(name) static plausible_pair name(const plausible_entry *at)
+
+// ---- mass
+
+static double gyration(double inertia, const ld_mass_data *data)
+{
+    return sqrt(inertia / data->mass);
+}
+
+FIND(center)
+{
+    return plausible_compare(at->model->rocket.full.center[0], plausible_front(at->model));
+}
+
+FIND(empty_center)
+{
+    return plausible_compare(at->model->rocket.empty.center[0], plausible_front(at->model));
+}
+
+FIND(off_axis)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    double y = rocket->full.center[1] + rocket->eccentricity[0];
+    double z = rocket->full.center[2] + rocket->eccentricity[1];
+    return plausible_compare(hypot(y, z), plausible_bore(at->model));
+}
+
+FIND(imbalance)
+{
+    const double *tilt = at->model->rocket.dynamic_imbalance;
+    return plausible_alone(hypot(tilt[0], tilt[1]));
+}
+
+FIND(roll_gyration)
+{
+    const ld_mass_data *full = &at->model->rocket.full;
+    return plausible_compare(gyration(full->inertia[0], full), plausible_bore(at->model));
+}
+
+FIND(empty_roll_gyration)
+{
+    const ld_mass_data *empty = &at->model->rocket.empty;
+    return plausible_compare(gyration(empty->inertia[0], empty), plausible_bore(at->model));
+}
+
+// Place of the foremost adaptor [m] where it tells how long the rocket is: in a bore. Buttons on a
+// rail may stand close.
+static double length_told(const ld_model *model)
+{
+    return model_has_surfaces(model) ? NAN : plausible_front(model);
+}
+
+FIND(pitch_gyration)
+{
+    const ld_mass_data *full = &at->model->rocket.full;
+    return plausible_compare(gyration(full->inertia[2], full), length_told(at->model));
+}
+
+FIND(empty_pitch_gyration)
+{
+    const ld_mass_data *empty = &at->model->rocket.empty;
+    return plausible_compare(gyration(empty->inertia[2], empty), length_told(at->model));
+}
+
+FIND(propellant)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    double lost = rocket->full.mass - rocket->empty.mass;
+    return plausible_compare(rocket->propellant, lost > 0 ? lost : NAN);
+}
+
+// ---- in the tube
+
+FIND(guidance)
+{
+    return plausible_compare(plausible_front(at->model), plausible_bore(at->model));
+}
+
+FIND(clearance)
+{
+    return plausible_compare(at->model->rocket.adaptor[at->i].clearance, plausible_bore(at->model));
+}
+
+FIND(contact_frequency)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    return plausible_alone(sqrt(rocket->contact.stiffness / rocket->full.mass) / (2 * PI));
+}
+
+FIND(release_force)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    return plausible_compare(model_has_pressure(at->model) ? NAN : rocket->lock.release_force,
+                             plausible_peak_thrust(&rocket->motor));
+}
+
+FIND(hold_down)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    bool by_motor = rocket->lock.hold_down > 0 && !model_has_pressure(at->model);
+    return plausible_compare(by_motor ? rocket->lock.hold_down : NAN,
+                             plausible_burn_time(&rocket->motor));
+}
+
+FIND(release_by_pressure)
+{
+    const ld_model *model = at->model;
+    return plausible_compare(model_has_pressure(model) ? model->rocket.lock.release_force : NAN,
+                             plausible_peak_drive(model));
+}
+
+// In a tube that points down the lock carries the weight.
+FIND(release_by_weight)
+{
+    double forwards = -plausible_weight_along(at->model);
+    return plausible_compare(at->model->rocket.lock.release_force, forwards > 0 ? forwards : NAN);
+}
+
+FIND(lock_along)
+{
+    return plausible_compare(at->model->rocket.lock.x, plausible_front(at->model));
+}
+
+FIND(lock_across)
+{
+    return plausible_compare(at->model->rocket.lock.radius, plausible_bore(at->model));
+}
+
+// ---- motor
+
+// The shortest time between two corners of the thrust, and the row of the second; a jump has none.
+FIND(thrust_corner)
+{
+    const ld_motor *motor = &at->model->rocket.motor;
+    plausible_pair pair = plausible_nothing();
+    for (size_t i = 1; i < motor->thrust.rows; i++) {
+        double time = motor->thrust.data[2 * i] - motor->thrust.data[2 * (i - 1)];
+        if (time > 0 && !(time * motor->time_scale >= pair.value)) {
+            pair = plausible_alone(time * motor->time_scale);
+            pair.row = (int)i + 1;
+        }
+    }
+    return pair;
+}
+
+FIND(thrust_at_end)
+{
+    const ld_motor *motor = &at->model->rocket.motor;
+    size_t rows = motor->thrust.rows;
+    double last = motor->thrust.data[2 * rows - 1] * motor->thrust_scale;
+    plausible_pair pair = plausible_compare(last, plausible_peak_thrust(motor));
+    pair.row = (int)rows;
+    return pair;
+}
+
+// The first row below 0.
+FIND(negative_thrust)
+{
+    const ld_table *thrust = &at->model->rocket.motor.thrust;
+    for (size_t k = 0; k < thrust->rows; k++)
+        if (thrust->data[2 * k + 1] < 0) {
+            plausible_pair pair = plausible_alone(thrust->data[2 * k + 1]);
+            pair.row = (int)k + 1;
+            return pair;
+        }
+    return plausible_nothing();
+}
+
+FIND(thrust_by_weight)
+{
+    const ld_model *model = at->model;
+    double weight = model_has_launcher(model) ? plausible_weight_along(model) : NAN;
+    return plausible_compare(plausible_peak_drive(model), weight > 0 ? weight : NAN);
+}
+
+FIND(acceleration)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    return plausible_alone(plausible_peak_thrust(&rocket->motor) / rocket->full.mass);
+}
+
+// At which the empty rocket falls below it near sea level.
+FIND(speed_of_descent)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    double area = rocket->parachute[at->i].drag_area;
+    return plausible_alone(sqrt(2 * rocket->empty.mass * 9.81 / (1.2 * area)));
+}
+
+FIND(opening_time)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_parachute *one = &rocket->parachute[at->i];
+    bool burns = one->trigger == LD_TRIGGER_TIME && !rocket->motor.absent;
+    return plausible_compare(burns ? one->time + one->lag : NAN,
+                             plausible_burn_time(&rocket->motor));
+}
+
+FIND(exhaust_speed)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    double speed = plausible_impulse(&rocket->motor) / rocket->propellant;
+    return plausible_alone(rocket->propellant > 0 ? speed : NAN);
+}
+
+FIND(nozzle_along)
+{
+    return plausible_compare(at->model->rocket.motor.at[0], length_told(at->model));
+}
+
+FIND(nozzle_across)
+{
+    const double *r = at->model->rocket.motor.at;
+    return plausible_compare(hypot(r[1], r[2]), plausible_bore(at->model));
+}
+
+// ---- aerodynamics
+
+FIND(diameter)
+{
+    return plausible_compare(at->model->rocket.aerodynamics.reference_diameter,
+                             2 * plausible_bore(at->model));
+}
+
+FIND(emerged_diameter)
+{
+    return plausible_compare(at->model->rocket.aerodynamics.emerged.diameter,
+                             2 * plausible_bore(at->model));
+}
+
+FIND(nose)
+{
+    return plausible_compare(at->model->rocket.aerodynamics.emerged.nose,
+                             plausible_front(at->model));
+}
+
+FIND(area)
+{
+    double bore = plausible_bore(at->model), area = at->model->rocket.aerodynamics.area;
+    return plausible_compare(area > 0 ? area : NAN, PI * bore * bore);
+}
+
+// Greatest value of a column of the table.
+static double greatest(const ld_table *table, size_t column)
+{
+    double most = -INFINITY;
+    for (size_t i = 0; i < table->rows; i++)
+        most = fmax(most, table->data[i * table->columns + column]);
+    return most;
+}
+
+enum { CA_POWER_OFF = 1, CN_ALPHA = 3, X_CP = 4 };
+
+FIND(axial_coefficient)
+{
+    const ld_aerodynamics *air = &at->model->rocket.aerodynamics;
+    return plausible_alone(greatest(&air->table, CA_POWER_OFF) * air->ca_scale);
+}
+
+FIND(normal_coefficient)
+{
+    double most = greatest(&at->model->rocket.aerodynamics.table, CN_ALPHA);
+    return plausible_alone(most > 0 ? most : NAN);
+}
+
+// Static margin in calibres: the mass centre before the centre of pressure at Mach 0.
+FIND(static_margin)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_aerodynamics *air = &rocket->aerodynamics;
+    double x_cp = air->table.data[X_CP] + air->x_cp_shift;
+    return plausible_alone((rocket->full.center[0] - x_cp) / air->reference_diameter);
+}
+
+// Last Mach number of the table beside the one that the rocket would reach in vacuum.
+FIND(last_mach)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_aerodynamics *air = &rocket->aerodynamics;
+    const double sound = 340;
+    double mean = rocket->full.mass - rocket->propellant / 2;
+    double gain = rocket->motor.absent ? 0 : plausible_impulse(&rocket->motor) / mean;
+    bool ends = air->beyond_table == LD_BEYOND_ERROR && model_has_launcher(at->model);
+    return plausible_compare(greatest(&air->table, 0), ends ? gain / sound : NAN);
+}
+
+#define NO_LOW .low = -INFINITY
+#define NO_HIGH .high = INFINITY
+#define BORE .other = "the bore's radius"
+#define FRONT .other = "the place of the foremost adaptor"
+
+const plausible_rule plausible_of_rocket[] = {
+    {"rocket.start_at", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.9,
+     .why = "the rocket starts at the rear of its tube"},
+    {"rocket.mass_error", .unit = "kg", .other = "rocket.mass", .low = -0.2, .high = 0.2,
+     .why = "an error of the mass is a small part of it"},
+    {"rocket.propellant", .unit = "kg", .other = "rocket.mass", NO_LOW, .high = 0.95,
+     .why = "little is left of the rocket"},
+    {"rocket.propellant", .unit = "kg", .other = "the full mass less the empty one", .low = 0.5,
+     .high = 2, .find = propellant, .why = "both are what is burnt"},
+    {"rocket.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .find = center,
+     .of = "rocket.adaptors", .why = "the mass centre lies between the adaptors, or near them"},
+    {"rocket.empty.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .find = empty_center,
+     .of = "rocket.adaptors", .why = "the mass centre lies between the adaptors, or near them"},
+    {"rocket.eccentricity", "the mass centre's distance from the axis", .unit = "m", BORE, NO_LOW,
+     .high = 0.1, .find = off_axis, .why = "a rocket is balanced within a millimetre or so"},
+    {"rocket.dynamic_imbalance", "the angle of the inertia's axis", .unit = "rad", NO_LOW,
+     .high = PI / 180, .find = imbalance, .why = "a rocket is balanced within some mrad"},
+    {"rocket.inertia.x", "the radius of gyration about x", .unit = "m", BORE, .low = 0.1, .high = 1,
+     .find = roll_gyration, .why = "the rocket goes through the bore"},
+    {"rocket.empty.inertia.x", "the radius of gyration about x", .unit = "m", BORE, .low = 0.1,
+     .high = 1, .find = empty_roll_gyration, .why = "the rocket goes through the bore"},
+    {"rocket.inertia.z", "the radius of gyration about z", .unit = "m", FRONT, .low = 0.05,
+     .high = 2, .find = pitch_gyration, .of = "rocket.adaptors",
+     .why = "the rocket is about as long as its adaptors stand apart"},
+    {"rocket.empty.inertia.z", "the radius of gyration about z", .unit = "m", FRONT, .low = 0.05,
+     .high = 2, .find = empty_pitch_gyration, .of = "rocket.adaptors",
+     .why = "the rocket is about as long as its adaptors stand apart"},
+    {"rocket.adaptors", "the place of the foremost adaptor", .unit = "m", BORE, .low = 1, NO_HIGH,
+     .find = guidance, .why = "adaptors so close give little guidance"},
+    {"rocket.adaptors.#.at", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
+     .why = "this adaptor never stands in the tube"},
+    {"rocket.adaptors.#.clearance", .unit = "m", BORE, NO_LOW, .high = 0.1, .find = clearance,
+     .why = "a clearance is a small part of the bore"},
+    {"rocket.contact.stiffness", "the frequency of the rocket on it", .unit = "Hz", .low = 2,
+     .high = 5000, .find = contact_frequency,
+     .why = "metal on metal is stiff, but a touch lasts longer than 0.1 ms"},
+    {"rocket.contact.reference_penetration", .unit = "m", .low = 1e-6, .high = 0.02,
+     .why = "penetrations are fractions of a millimetre"},
+    {"rocket.contact.reference_speed", .unit = "m/s", .low = 1e-3, .high = 50,
+     .why = "adaptors touch the tube at some 0.1 m/s"},
+    {"rocket.contact.friction", .unit = "", NO_LOW, .high = 1.5,
+     .why = "dry metal on metal has less than 1"},
+    {"rocket.contact.friction_speed", .unit = "m/s", .low = 1e-6, .high = 1,
+     .why = "it only smooths friction about rest"},
+    {"rocket.lock.release_force", .unit = "N", .other = "the greatest thrust", NO_LOW, .high = 1,
+     .find = release_force, .why = "the lock never releases"},
+    {"rocket.lock.release_force", .unit = "N", .other = "the greatest force of pressure and thrust",
+     NO_LOW, .high = 1, .find = release_by_pressure, .why = "the lock never releases"},
+    {"rocket.lock.release_force", .unit = "N", .other = "the weight towards the tip", .low = 1,
+     NO_HIGH, .find = release_by_weight, .why = "the lock releases before the ignition"},
+    {"rocket.lock.hold_down", .unit = "s", .other = "the time that the motor burns", NO_LOW,
+     .high = 0.5, .find = hold_down, .why = "propellant burnt before the release drives nothing"},
+    {"rocket.lock.at.x", .unit = "m", FRONT, .low = -1, .high = 1.5, .find = lock_along,
+     .of = "rocket.adaptors", .why = "the lock holds the rocket's body"},
+    {"rocket.lock.at.radius", .unit = "m", BORE, NO_LOW, .high = 1.1, .find = lock_across,
+     .why = "the lock holds the rocket's body"},
+    {"rocket.motor.thrust.#", "the thrust", .unit = "N", .low = 0, NO_HIGH, .find = negative_thrust,
+     .why = "a motor does not pull; it counts as 0 N"},
+    {"rocket.motor.thrust.#", "the thrust at its end", .unit = "N", .other = "the greatest thrust",
+     NO_LOW, .high = 0.1, .find = thrust_at_end,
+     .why = "a motor burns out, and the curve ends near 0 N"},
+    {"rocket.motor.thrust.#", "the time since the row before", .unit = "s", .low = 1e-6, NO_HIGH,
+     .find = thrust_corner, .why = "for a jump give the same time twice"},
+    {"rocket.motor.thrust", "the greatest thrust", .unit = "N",
+     .other = "the weight towards the rear", .low = 1, NO_HIGH, .find = thrust_by_weight,
+     .why = "the rocket never leaves"},
+    {"rocket.motor.thrust", "the greatest thrust over the mass", .unit = "m/s2", NO_LOW,
+     .high = 5e4, .find = acceleration, .why = "that is 5000 times gravity"},
+    {"rocket.motor.thrust", "impulse over propellant (the exhaust speed)", .unit = "m/s",
+     .low = 500, .high = 6000, .find = exhaust_speed, .of = "rocket.propellant",
+     .why = "solid propellants have 1800 m/s to 2800 m/s"},
+    {"rocket.motor.at.x", .unit = "m", FRONT, .low = -1, .high = 1, .find = nozzle_along,
+     .of = "rocket.adaptors", .why = "thrust acts at the nozzle"},
+    {"rocket.motor.at", "the distance from the axis", .unit = "m", BORE, NO_LOW, .high = 0.5,
+     .find = nozzle_across, .why = "thrust acts at the nozzle"},
+    {"rocket.motor.misalignment.y", .unit = "rad", .low = -0.05, .high = 0.05,
+     .why = "motors are aligned within some mrad"},
+    {"rocket.motor.misalignment.z", .unit = "rad", .low = -0.05, .high = 0.05,
+     .why = "motors are aligned within some mrad"},
+    {"rocket.motor.thrust_scale", .unit = "", .low = 0.1, .high = 10,
+     .why = "it is a correction of the curve"},
+    {"rocket.motor.time_scale", .unit = "", .low = 0.1, .high = 10,
+     .why = "it is a correction of the curve"},
+    {"rocket.parachutes.#.drag_area", "the speed of the descent below it", .unit = "m/s",
+     .low = 0.5, .high = 100, .find = speed_of_descent,
+     .why = "rockets come down at 15 to 40 m/s under a drogue, at 4 to 10 m/s under a main"},
+    {"rocket.parachutes.#.time", "the time of its opening", .unit = "s",
+     .other = "the time that the motor burns", .low = 1, NO_HIGH, .find = opening_time,
+     .why = "below a parachute the thrust counts no more"},
+    {"rocket.parachutes.#.filling", .unit = "s", NO_LOW, .high = 20,
+     .why = "parachutes fill in some tenths of a second to a few seconds"},
+    {"rocket.aerodynamics.reference_diameter", .unit = "m", .other = "the bore's diameter",
+     .low = 0.2, .high = 1.05, .find = diameter, .why = "the rocket goes through the bore"},
+    {"rocket.aerodynamics.area", .unit = "m2", .other = "the area of the bore", .low = 0.04,
+     .high = 2, .find = area, .why = "the rocket goes through the bore"},
+    {"rocket.aerodynamics.emerged.nose", .unit = "m", FRONT, NO_LOW, .high = 3, .find = nose,
+     .of = "rocket.adaptors", .why = "the nose is not far before the foremost adaptor"},
+    {"rocket.aerodynamics.emerged.drag", .unit = "", .low = 0.1, .high = 3,
+     .why = "that of a cylinder across the wind is 1.2"},
+    {"rocket.aerodynamics.emerged.diameter", .unit = "m", .other = "the bore's diameter",
+     .low = 0.2, .high = 1.05, .find = emerged_diameter, .why = "the rocket goes through the bore"},
+    {"rocket.aerodynamics.fin_cant", .unit = "rad", .low = -20 * PI / 180, .high = 20 * PI / 180,
+     .why = "fins are canted by a degree or so"},
+    {"rocket.aerodynamics.table", "the greatest ca_power_off", .unit = "", NO_LOW, .high = 5,
+     .find = axial_coefficient, .why = "that of rockets is 0.2 to 1"},
+    {"rocket.aerodynamics.table", "the greatest cn_alpha", .unit = "", .low = 0.5, .high = 100,
+     .find = normal_coefficient,
+     .why = "that of rockets is 2 to 20 per radian; per degree it would be 57 times less"},
+    {"rocket.aerodynamics.table", "the static margin in calibres", .unit = "", .low = -20,
+     .high = 20, .find = static_margin, .why = "x_cp counts forward from the rear adaptor"},
+    {"rocket.aerodynamics.table", "the last Mach number", .unit = "",
+     .other = "the Mach number that the motor gives without drag", .low = 0.5, NO_HIGH,
+     .find = last_mach, .why = "the flight ends with an error where the table ends"},
+    {0}};

@@ -1,0 +1,441 @@
+// Plausibility of tubes and their supports.
+#include "math/functions.h"
+#include "model/guide.h"
+#include "model/warnings/plausible.h"
+
+#define PI 3.14159265358979323846
+#define FIND(name) static plausible_pair name(const plausible_entry *at)
+
+// ---- sections
+
+static const ld_section *section_of(const plausible_entry *at)
+{
+    return &at->model->tubes.section[at->i];
+}
+
+// Its radius; NaN of a beam that carries surfaces.
+static double bore_of(const plausible_entry *at)
+{
+    return model_has_surfaces(at->model) ? NAN : section_of(at)->bore_radius;
+}
+
+FIND(wall_thickness)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(s->outer_radius - s->bore_radius, s->bore_radius);
+}
+
+FIND(wall_area)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(s->area, PI * bore_of(at) * bore_of(at));
+}
+
+// Radius about which the wall lies: of a thin ring sqrt(2 I/A).
+FIND(radius_of_area)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(sqrt(2 * s->second_moment / s->area), bore_of(at));
+}
+
+FIND(radius_of_stiffness)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), bore_of(at));
+}
+
+// Radius of gyration about z, beside the tube's length.
+FIND(radius_of_plane)
+{
+    const ld_section *s = section_of(at);
+    double stiffness = s->form == LD_SECTION_PLANES ? s->bending_stiffness_z : NAN;
+    return plausible_compare(sqrt(stiffness / s->axial_stiffness), at->model->tubes.length);
+}
+
+FIND(radius_of_inertia)
+{
+    const ld_section *s = section_of(at);
+    return plausible_compare(sqrt(s->polar_inertia / s->mass_per_length), bore_of(at));
+}
+
+FIND(mass_over_area)
+{
+    const ld_section *s = section_of(at);
+    return plausible_alone(s->form == LD_SECTION_AREA ? s->mass_per_length / s->area : NAN);
+}
+
+FIND(wave_speed)
+{
+    const ld_section *s = section_of(at);
+    return plausible_alone(sqrt(s->axial_stiffness / s->mass_per_length));
+}
+
+// ---- the tube
+
+FIND(slenderness)
+{
+    return plausible_compare(at->model->tubes.length, plausible_bore(at->model));
+}
+
+// Frequency of the highest bending mode, about that of a clamped tube, beside that of steps.
+FIND(highest_mode)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    const ld_section *s = tubes->section;
+    double k = (tubes->modes.bending - 0.5) * PI / tubes->length;
+    double stiffness = fmax(section_stiffness_y(s), section_stiffness_z(s));
+    double frequency = k * k * sqrt(stiffness / s->mass_per_length) / (2 * PI);
+    return plausible_compare(tubes->modes.bending > 0 ? frequency : NAN,
+                             1 / at->model->run.max_step);
+}
+
+FIND(tail_mass)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    return plausible_compare(tubes->tail.mass, plausible_tube_mass(tubes) - tubes->tail.mass);
+}
+
+FIND(point_mass)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double mass = tubes->point_mass[at->i].mass;
+    return plausible_compare(mass, plausible_tube_mass(tubes) - mass);
+}
+
+FIND(support_frequency)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double stiffness = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        stiffness += support_clamps(&tubes->support[i], LD_CLAMP_Y)
+                         ? NAN
+                         : support_spring(&tubes->support[i], LD_CLAMP_Y);
+    double mass = plausible_tube_mass(tubes) + at->model->rocket.full.mass;
+    return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
+}
+
+// Time [s] in which the supports' dampers take the tube's motion along an axis, the shortest.
+FIND(support_time)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double greatest = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double damping = 0;
+        for (int i = 0; i < tubes->support_count; i++)
+            damping += tubes->support[i].damping[axis];
+        greatest = fmax(greatest, damping);
+    }
+    return plausible_compare(greatest > 0 ? plausible_tube_mass(tubes) / greatest : NAN,
+                             at->model->run.max_step);
+}
+
+// Time [s] in which their rotational dampers across the axis take the turning of the tube, as of a
+// rod, the shortest.
+FIND(support_turning_time)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double inertia = plausible_tube_mass(tubes) * tubes->length * tubes->length / 12, damping[2];
+    for (int axis = 0; axis < 2; axis++) {
+        damping[axis] = 0;
+        for (int i = 0; i < tubes->support_count; i++)
+            damping[axis] += tubes->support[i].rotational_damping[1 + axis];
+    }
+    double greatest = fmax(damping[0], damping[1]);
+    return plausible_compare(greatest > 0 ? inertia / greatest : NAN, at->model->run.max_step);
+}
+
+// Time [s] in which a slide's damper takes the tube's recoil.
+FIND(recoil_time)
+{
+    const ld_recoil *recoil = &at->model->tubes.support[at->i].recoil;
+    double mass = plausible_tube_mass(&at->model->tubes);
+    return plausible_compare(recoil->present && recoil->damping > 0 ? mass / recoil->damping : NAN,
+                             at->model->run.max_step);
+}
+
+static double greatest_spring(const ld_support *support)
+{
+    double greatest = 0;
+    for (ld_clamp axis = LD_CLAMP_X; axis <= LD_CLAMP_Z; axis++)
+        greatest = fmax(greatest, support_spring(support, axis));
+    return greatest;
+}
+
+// The stiffness of a support that has springs along the axes alone, if any, beside that of the
+// stiffest one.
+FIND(support_stiffness)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    const ld_support *support = &tubes->support[at->i];
+    double stiffest = 0;
+    for (int i = 0; i < tubes->support_count; i++)
+        stiffest = fmax(stiffest, greatest_spring(&tubes->support[i]));
+    if (support->clamped || plausible_norm(support->rotational_stiffness) > 0)
+        return plausible_nothing();
+    return plausible_compare(greatest_spring(support), stiffest);
+}
+
+// The distance of a station that is clamped from the nearest of those before it.
+FIND(clamped_distance)
+{
+    const ld_support *support = at->model->tubes.support;
+    double nearest = NAN;
+    for (int k = 0; k < at->i; k++)
+        if (support[k].clamped && support[at->i].clamped)
+            nearest = fmin(nearest, fabs(support[k].at - support[at->i].at));
+    return plausible_compare(nearest, at->model->tubes.length);
+}
+
+// Where the outer fibre lies beside the radius of gyration of its direction, the nearer of both.
+FIND(outer_fibre)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    const ld_station *station = &tubes->station[at->i];
+    const ld_section *s = tubes->section;
+    for (int k = 1; k < tubes->section_count && tubes->section[k].from <= station->at; k++)
+        s = &tubes->section[k];
+    double y = sqrt(section_stiffness_z(s) / s->axial_stiffness);
+    double z = sqrt(section_stiffness_y(s) / s->axial_stiffness);
+    bool along_y = station->outer_fibre[0] / y < station->outer_fibre[1] / z;
+    return plausible_compare(station->outer_fibre[along_y ? 0 : 1], along_y ? y : z);
+}
+
+// What the recuperators carry beside the weight that pulls the tube out of battery.
+FIND(preload)
+{
+    const ld_model *model = at->model;
+    const ld_tubes *tubes = &model->tubes;
+    double mass = plausible_tube_mass(tubes) + model->rocket.full.mass, preload = 0;
+    double weight = plausible_weight_along(model) / model->rocket.full.mass * mass;
+    for (int i = 0; i < tubes->support_count; i++)
+        preload += tubes->support[i].recoil.present ? tubes->support[i].recoil.preload : 0;
+    return plausible_compare(preload, weight > 0 ? weight : NAN);
+}
+
+// The greatest force on a rocket without motor beside the weight that holds it back.
+FIND(pressure_by_weight)
+{
+    double weight = plausible_weight_along(at->model);
+    double force = at->model->rocket.motor.absent ? plausible_peak_pressure(at->model) : NAN;
+    return plausible_compare(force, weight > 0 ? weight : NAN);
+}
+
+FIND(greatest_pressure)
+{
+    double bore = plausible_bore(at->model);
+    return plausible_alone(plausible_peak_pressure(at->model) / (PI * bore * bore));
+}
+
+// Reservoir beside what the rocket leaves behind it in the bore.
+FIND(gas_volume)
+{
+    const ld_tubes *tubes = &at->model->tubes;
+    double bore = plausible_bore(at->model), way = tubes->length - at->model->rocket.start_at;
+    return plausible_compare(tubes->pressure.volume, PI * bore * bore * way);
+}
+
+// Pressure of the gas when the rocket leaves.
+FIND(expanded)
+{
+    const ld_model *model = at->model;
+    const ld_pressure *gas = &model->tubes.pressure;
+    double bore = plausible_bore(model), way = model->tubes.length - model->rocket.start_at;
+    double volume = gas->volume + PI * bore * bore * way;
+    return plausible_compare(gas->ambient,
+                             gas->scale * gas->pressure * pow(gas->volume / volume, gas->exponent));
+}
+
+FIND(pitch)
+{
+    const ld_layout *layout = &at->model->tubes.layout;
+    bool several = layout->rows * layout->columns > 1;
+    return plausible_compare(several ? layout->pitch : NAN, 2 * plausible_bore(at->model));
+}
+
+FIND(first_tube)
+{
+    return plausible_compare(plausible_norm(at->model->tubes.layout.first),
+                             at->model->tubes.length);
+}
+
+// ---- guide of surfaces
+
+FIND(guide_line)
+{
+    const double *line = at->model->tubes.guide.line;
+    return plausible_compare(hypot(line[0], line[1]), at->model->tubes.length);
+}
+
+FIND(surface_place)
+{
+    const double *place = at->model->tubes.guide.surface[at->i].at;
+    return plausible_compare(hypot(place[0], place[1]), at->model->tubes.length);
+}
+
+// Angle that the widest gap and the opposite one leave the rocket between its outer shoes.
+FIND(play)
+{
+    ld_surface surface[LD_MAX_SURFACES];
+    int count = guide_surfaces(&at->model->tubes.guide, surface);
+    double widest = 0, front = plausible_front(at->model);
+    for (int k = 0; k < count; k++)
+        widest = fmax(widest, surface[k].gap);
+    return plausible_alone(count > 0 ? 2 * widest / front : NAN);
+}
+
+FIND(shoe_clearance)
+{
+    const ld_model *model = at->model;
+    return plausible_alone(model_has_surfaces(model) ? model->rocket.adaptor[at->i].clearance
+                                                     : NAN);
+}
+
+// ---- slot
+
+FIND(slot_radius)
+{
+    return plausible_compare(at->model->tubes.slot.radius, plausible_bore(at->model));
+}
+
+FIND(slot_angle)
+{
+    const ld_table *angle = &at->model->tubes.slot.angle;
+    double greatest = 0;
+    for (size_t i = 0; i < angle->rows; i++)
+        greatest = fmax(greatest, fabs(angle->data[2 * i + 1]));
+    return plausible_alone(greatest);
+}
+
+#define NO_LOW .low = -INFINITY
+#define NO_HIGH .high = INFINITY
+#define BORE .other = "the bore's radius"
+
+const plausible_rule plausible_of_tube[] = {
+    {"tubes.length", .unit = "m", BORE, .low = 2, .high = 500, .find = slenderness,
+     .why = "a launch tube is 2 to 500 bore radii long"},
+    {"tubes.sections.#.outer_radius", "the wall's thickness", .unit = "m",
+     .other = "the section's inner radius", .low = 0.002, .high = 1, .find = wall_thickness,
+     .why = "no usual wall of a tube"},
+    {"tubes.sections.#.area", .unit = "m2", .other = "the area of the bore", .low = 0.004,
+     .high = 3, .find = wall_area, .why = "no usual wall of a tube"},
+    {"tubes.sections.#.second_moment", "the wall's mean radius by its moment and area", .unit = "m",
+     BORE, .low = 0.5, .high = 3, .find = radius_of_area, .why = "a wall lies around its bore"},
+    {"tubes.sections.#.torsion_constant", .unit = "m4", .other = "tubes.sections.#.second_moment",
+     .low = 1e-5, .high = 2.5,
+     .why = "that of a ring is twice its second moment, of an open one less"},
+    {"tubes.sections.#.bending_stiffness", "the wall's mean radius by its stiffnesses", .unit = "m",
+     BORE, .low = 0.5, .high = 3, .find = radius_of_stiffness,
+     .why = "a wall lies around its bore"},
+    {"tubes.sections.#.bending_stiffness_y", .unit = "N.m2",
+     .other = "tubes.sections.#.bending_stiffness_z", .low = 0.002, .high = 500,
+     .why = "a section so much stiffer in one plane is a sheet"},
+    {"tubes.sections.#.bending_stiffness_z", "the radius of gyration by its stiffnesses",
+     .unit = "m", .other = "tubes.length", .low = 2e-4, .high = 0.2, .find = radius_of_plane,
+     .why = "a guide is a beam"},
+    {"tubes.sections.#.torsion_stiffness", .unit = "N.m2",
+     .other = "tubes.sections.#.bending_stiffness", .low = 1e-5, .high = 2.5,
+     .why = "that of a ring is a little less than its bending stiffness"},
+    {"tubes.sections.#.axial_stiffness", "the speed of sound along the wall", .unit = "m/s",
+     .low = 100, .high = 20000, .find = wave_speed, .why = "that of steel is 5200 m/s"},
+    {"tubes.sections.#.mass_per_length", "mass over volume of the wall", .unit = "kg/m3",
+     .low = 300, .high = 40000, .find = mass_over_area, .why = "that of steel is 7850 kg/m3"},
+    {"tubes.sections.#.polar_inertia", "the mean radius of the mass", .unit = "m", BORE, .low = 0.5,
+     .high = 5, .find = radius_of_inertia, .why = "a wall lies around its bore"},
+    {"tubes.material.density", .unit = "kg/m3", .low = 500, .high = 23000,
+     .why = "wood has 500 kg/m3, steel 7850 kg/m3, no metal more than 22600 kg/m3"},
+    {"tubes.material.youngs_modulus", .unit = "Pa", .low = 1e8, .high = 1e12,
+     .why = "that of plastics is some 1e9 Pa, that of steel 2.1e11 Pa"},
+    {"tubes.material.shear_modulus", .unit = "Pa", .other = "tubes.material.youngs_modulus",
+     .low = 0.005, .high = 0.6, .why = "that of a metal is about 0.4 times Young's modulus"},
+    {"tubes.material.poisson_ratio", .unit = "", .low = 0, NO_HIGH,
+     .why = "materials that grow thicker as they are pulled are rare"},
+    {"tubes.modes.damping", .unit = "", NO_LOW, .high = 0.2,
+     .why = "the structure of a tube damps a few percent"},
+    {"tubes.modes.bending", "the highest mode's rough frequency", .unit = "Hz",
+     .other = "one over run.max_step", NO_LOW, .high = 20, .find = highest_mode,
+     .of = "run.max_step", .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.tail.mass", .unit = "kg", .other = "the mass of the tube", NO_LOW, .high = 20,
+     .find = tail_mass, .of = "tubes.material.density", .why = "a tail is a part of the tube"},
+    {"tubes.tail.center", .unit = "m", .other = "tubes.length", .low = -1, .high = 1,
+     .why = "a tail is welded to the rear end"},
+    {"tubes.point_masses.#.mass", .unit = "kg", .other = "the mass of all else of the tube", NO_LOW,
+     .high = 20, .find = point_mass, .of = "tubes.material.density",
+     .why = "a guide ring is a part of the tube"},
+    {"tubes.supports", "the frequency of tube and rocket on their stiffness along y", .unit = "Hz",
+     .low = 0.5, .high = 10000, .find = support_frequency, .of = "tubes.material.density",
+     .why = "supports hold a tube tighter than rubber and softer than rock"},
+    {"tubes.supports", "the time in which their damping takes the tube's motion", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_time,
+     .of = "tubes.material.density",
+     .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.supports", "the time in which their rotational damping takes the tube's turning",
+     .unit = "s", .other = "run.max_step", .low = 0.05, NO_HIGH, .find = support_turning_time,
+     .of = "tubes.material.density",
+     .why = "the integrator follows it by as many steps as it needs"},
+    {"tubes.supports.#.stiffness", "its greatest stiffness", .unit = "N/m",
+     .other = "that of the stiffest support", .low = 1e-6, NO_HIGH, .find = support_stiffness,
+     .why = "a support without springs holds nothing"},
+    {"tubes.supports.#.recoil.damping", "the time in which it takes the recoil", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = recoil_time,
+     .of = "tubes.material.density", .why = "the slide does not move"},
+    {"tubes.supports.#.recoil.preload", "the preload of all slides", .unit = "N",
+     .other = "the weight of tube and rocket towards the rear", .low = 1, NO_HIGH, .find = preload,
+     .of = "tubes.material.density", .why = "the tube rests out of battery"},
+    {"tubes.supports.#.recoil.stroke", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
+     .why = "a slide is shorter than its tube"},
+    {"tubes.supports.#.recoil.friction", .unit = "N", .other = "tubes.supports.#.recoil.preload",
+     NO_LOW, .high = 1, .why = "the tube does not come back into battery"},
+    {"tubes.supports.#.at", "the distance from the nearest clamped station before it", .unit = "m",
+     .other = "tubes.length", .low = 0.005, NO_HIGH, .find = clamped_distance,
+     .why = "clamps so close act as one, with unbounded forces"},
+    {"tubes.loads.#.outer_fibre", .unit = "m", .other = "the radius of gyration of its direction",
+     .low = 0.99, .high = 20, .find = outer_fibre,
+     .why = "the corner lies farther out than the material on average"},
+    {"tubes.pressure", "the greatest pressure", .unit = "Pa", NO_LOW, .high = 1e9,
+     .find = greatest_pressure, .why = "expected at most 10000 bar"},
+    {"tubes.pressure", "its greatest force", .unit = "N", .other = "the weight towards the rear",
+     .low = 1, NO_HIGH, .find = pressure_by_weight, .why = "the rocket never leaves"},
+    {"tubes.pressure.volume", .unit = "m3", .other = "the volume of the bore before the rocket",
+     .low = 0.001, .high = 1000, .find = gas_volume,
+     .why = "a reservoir is about as large as what it fills"},
+    {"tubes.pressure.exponent", .unit = "", .low = 1, .high = 1.7,
+     .why = "gases have 1 where they are kept warm, and at most 1.67"},
+    {"tubes.pressure.ambient", .unit = "Pa", .other = "the pressure of the gas at the exit", NO_LOW,
+     .high = 1, .find = expanded, .of = "tubes.pressure.exponent",
+     .why = "it holds the rocket back before it leaves"},
+    {"tubes.pressure.scale", .unit = "", .low = 0.1, .high = 10,
+     .why = "it is a correction of the pressure"},
+    {"tubes.layout.pitch", .unit = "m", .other = "the bore's diameter", NO_LOW, .high = 20,
+     .find = pitch, .why = "tubes of one launcher lie side by side"},
+    {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",
+     .other = "tubes.length", NO_LOW, .high = 5, .find = first_tube,
+     .why = "tubes lie on their platform"},
+    {"tubes.guide.line", "its distance from the elastic axis", .unit = "m", .other = "tubes.length",
+     NO_LOW, .high = 0.2, .find = guide_line, .why = "the guide line runs along its beam"},
+    {"tubes.guide.t_slot.lips", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.2,
+     .why = "a rail is long and narrow"},
+    {"tubes.guide.t_slot.gap", .unit = "m", .other = "tubes.guide.t_slot.lips", NO_LOW, .high = 0.2,
+     .why = "a gap is a small part of the slot"},
+    {"tubes.guide.t_slot.side_gap", .unit = "m", .other = "tubes.guide.t_slot.lips", NO_LOW,
+     .high = 0.2, .why = "a gap is a small part of the slot"},
+    {"tubes.guide.tower.radius", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.5,
+     .why = "a tower is longer than wide"},
+    {"tubes.guide.tower.gap", .unit = "m", .other = "tubes.guide.tower.radius", NO_LOW, .high = 0.1,
+     .why = "a gap is a small part of the way across"},
+    {"tubes.guide.surfaces.#.at", "its distance from the guide line", .unit = "m",
+     .other = "tubes.length", NO_LOW, .high = 0.2, .find = surface_place,
+     .why = "surfaces lie around the guide line"},
+    {"tubes.guide.surfaces.#.gap", .unit = "m", NO_LOW, .high = 0.03,
+     .why = "gaps are millimetres"},
+    {"rocket.adaptors.#.clearance", .unit = "m", NO_LOW, .high = 0.03, .find = shoe_clearance,
+     .why = "it is added to the gaps of this shoe"},
+    {"rocket.adaptors", "the angle that the widest gap leaves between the outer shoes",
+     .unit = "rad", NO_LOW, .high = 5 * PI / 180, .find = play, .of = "tubes.guide",
+     .why = "shoes so close give little guidance"},
+    {"tubes.slot.radius", .unit = "m", BORE, .low = 0.5, .high = 2, .find = slot_radius,
+     .why = "the slot lies in the wall around the bore"},
+    {"tubes.slot.angle", "its greatest angle", .unit = "rad", NO_LOW, .high = 45 * PI / 180,
+     .find = slot_angle, .why = "a steeper slot brakes and jams"},
+    {"tubes.slot.friction", .unit = "", NO_LOW, .high = 1.5,
+     .why = "dry metal on metal has less than 1"},
+    {0}};

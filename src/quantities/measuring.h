@@ -1,0 +1,45 @@
+// Measures as they are taken: of a launch, or of the flight of a rocket, step by step.
+#ifndef LD_SIMULATION_MEASURING_H
+#define LD_SIMULATION_MEASURING_H
+
+#include "quantities/measures.h"
+
+// A measure of one rocket, as far as it has been taken.
+typedef struct measure_window {
+    bool open, done;
+    double t_from; // [s] when its first instant came
+    double value;  // of its column where the last step ended; since then after what happened there
+    double reference; // what magnitudes count from; NaN: the window has not begun
+    double sum;       // integral over the window of the column, for rms of its square
+    double peak;      // largest magnitude in it
+} measure_window;
+
+// What is measured: columns of a launch, or those of a flight, found at any time of the last step.
+typedef struct measuring {
+    int count;                // of plans, windows, results
+    const measure_plan *plan; // those of the other kind, launch or flight, are passed over
+    bool flight;
+    measure_window *window;
+    double *result; // in SI; stays as it is where its window does not come
+    void (*row)(void *self, double t, double *row);
+    bool (*has_come)(void *self, measure_instant instant);
+    void *self;
+} measuring;
+
+enum { MEASURING_MOST_COLUMNS = 1024 };
+
+// Instants are still to come.
+void measuring_begin(measure_window *window, int count);
+// Whether any is in its window; whether there is any at all.
+bool measuring_is_open(const measuring *self);
+bool measuring_is_there(const measuring *self);
+
+// Takes the step from `from` to `to`, where the columns are `end` before anything happens; NULL: of
+// no interest, since none is open.
+void measuring_step(const measuring *self, double from, double to, const double *end);
+// What has happened at t, after which the columns are `now`: windows begin and end.
+void measuring_instant(const measuring *self, double t, const double *now);
+// The last instant, at the end of the last step.
+void measuring_end(const measuring *self, double t);
+
+#endif

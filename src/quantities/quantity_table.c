@@ -1,0 +1,262 @@
+#include "quantities/quantity_table.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+quantity_things quantity_things_of(const ld_model *model)
+{
+    static const char hinges[2][16] = {"azimuth", "elevation"};
+    if (!model)
+        return (quantity_things){0};
+    bool vehicle = model_has_vehicle(model);
+    return (quantity_things){
+        .count = {[EACH_RUN] = 1,
+                  [EACH_VEHICLE] = vehicle,
+                  [EACH_SLOT] = model_has_slot(model),
+                  [EACH_CROSSFLOW] = model_has_crossflow(model),
+                  [EACH_OPEN_AIR] = model_has_open_air(model),
+                  [EACH_JET] = model_has_jet(model),
+                  [EACH_PRESSURE] = model_has_pressure(model),
+                  [EACH_SLIDE_WORK] = model_slide_count(model) > 0,
+                  [EACH_SLIDE] = model_slide_count(model),
+                  [EACH_ADAPTOR] = model->rocket.adaptor_count,
+                  [EACH_SHOE] = model_has_surfaces(model) ? model->rocket.adaptor_count : 0,
+                  [EACH_HINGE] = vehicle ? 2 : 0,
+                  [EACH_WHEEL] = vehicle ? model->base.vehicle.wheel_count : 0,
+                  [EACH_MEASURE] = model->measure_count,
+                  [EACH_PARACHUTE] = model->rocket.parachute_count,
+                  [EACH_STATION] = model->tubes.station_count,
+                  [EACH_SUPPORT] = model->tubes.station_count ? model->tubes.support_count : 0},
+        .name = {[EACH_ADAPTOR] = model->rocket.adaptor[0].name,
+                 [EACH_SHOE] = model->rocket.adaptor[0].name,
+                 [EACH_HINGE] = hinges[0],
+                 [EACH_WHEEL] = model->base.vehicle.wheel[0].name,
+                 [EACH_MEASURE] = model->measure[0].name,
+                 [EACH_PARACHUTE] = model->rocket.parachute[0].name},
+        .stride = {[EACH_ADAPTOR] = sizeof model->rocket.adaptor[0],
+                   [EACH_SHOE] = sizeof model->rocket.adaptor[0],
+                   [EACH_HINGE] = sizeof hinges[0],
+                   [EACH_WHEEL] = sizeof model->base.vehicle.wheel[0],
+                   [EACH_MEASURE] = sizeof model->measure[0],
+                   [EACH_PARACHUTE] = sizeof model->rocket.parachute[0]},
+        .launcher = model_has_launcher(model),
+        .model = model,
+    };
+}
+
+const char *quantity_name_of(const quantity_things *things, quantity_each each, int item)
+{
+    return things->name[each] + (size_t)item * things->stride[each];
+}
+
+int quantity_item_named(const quantity_things *things, quantity_each each, const char *name)
+{
+    for (int i = 0; i < things->count[each]; i++)
+        if (strcmp(quantity_name_of(things, each, i), name) == 0)
+            return i;
+    return -1;
+}
+
+void quantity_text(const char *text, quantity_each each, int item, const quantity_things *things,
+                   char *to, size_t size)
+{
+    const char *mark = strstr(text, "%s");
+    if (!mark)
+        snprintf(to, size, "%s", text);
+    else if (!things->name[each])
+        snprintf(to, size, "%.*s%d%s", (int)(mark - text), text, item + 1, mark + 2);
+    else
+        snprintf(to, size, "%.*s%s%s", (int)(mark - text), text,
+                 quantity_name_of(things, each, item), mark + 2);
+}
+
+// Leaves groups of which there is nothing.
+static void settle(quantity_walk *walk)
+{
+    const quantity_table *table = walk->table;
+    while (walk->at_group < table->groups &&
+           walk->item >= walk->things->count[table->group[walk->at_group].each]) {
+        walk->at_group++;
+        walk->item = walk->at_row = 0;
+    }
+    bool there = walk->at_group < table->groups;
+    walk->group = there ? &table->group[walk->at_group] : NULL;
+    walk->row = there ? &walk->group->row[walk->at_row] : NULL;
+}
+
+quantity_walk quantity_first(const quantity_table *table, const quantity_things *things)
+{
+    quantity_walk walk = {.table = table, .things = things};
+    settle(&walk);
+    return walk;
+}
+
+void quantity_next(quantity_walk *walk)
+{
+    if (++walk->at_row == walk->group->rows) {
+        walk->at_row = 0;
+        walk->item++;
+    }
+    settle(walk);
+}
+
+quantity_walk quantity_find(const quantity_table *table, const quantity_things *things,
+                            const char *name)
+{
+    quantity_walk walk = quantity_first(table, things);
+    for (; walk.row; quantity_next(&walk)) {
+        char text[QUANTITY_NAME];
+        quantity_text(walk.row->name, walk.group->each, walk.item, things, text, sizeof text);
+        if (strcmp(text, name) == 0)
+            break;
+    }
+    return walk;
+}
+
+static bool is_like(const char *pattern, const char *name)
+{
+    const char *mark = strstr(pattern, "%s");
+    if (!mark)
+        return strcmp(pattern, name) == 0;
+    size_t before = (size_t)(mark - pattern), after = strlen(mark + 2), length = strlen(name);
+    return length > before + after && strncmp(pattern, name, before) == 0 &&
+           strcmp(name + length - after, mark + 2) == 0;
+}
+
+const quantity *quantity_like(const quantity_table *table, const char *name)
+{
+    for (int i = 0; i < table->groups; i++)
+        for (int k = 0; k < table->group[i].rows; k++)
+            if (is_like(table->group[i].row[k].name, name))
+                return &table->group[i].row[k];
+    return NULL;
+}
+
+double quantity_number(const quantity_place *place, int item, const void *from)
+{
+    const char *at = (const char *)from + place->offset + (size_t)item * place->stride;
+    switch (place->type) {
+    case QUANTITY_NUMBER:
+        return *(const double *)(const void *)at;
+    case QUANTITY_INT:
+        return *(const int *)(const void *)at;
+    case QUANTITY_INT64:
+        return (double)*(const int64_t *)(const void *)at;
+    case QUANTITY_BOOL:
+        return *(const bool *)at;
+    default:
+        return NAN;
+    }
+}
+
+void quantity_put(const quantity_place *place, int item, double value, void *in)
+{
+    char *at = (char *)in + place->offset + (size_t)item * place->stride;
+    memcpy(at, &value, sizeof value);
+}
+
+bool quantity_is_there(const quantity_group *group, const void *from)
+{
+    return group->where.type == QUANTITY_NONE || quantity_number(&group->where, 0, from) != 0;
+}
+
+double quantity_value(const quantity_walk *at, const void *from)
+{
+    return quantity_is_there(at->group, from) ? quantity_number(&at->row->at, at->item, from) : NAN;
+}
+
+void quantity_archive(const quantity_table *table, const quantity_things *things, void *in,
+                      archive *bytes)
+{
+    for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at)) {
+        if (at.row->at.type != QUANTITY_NUMBER || !quantity_is_there(at.group, in))
+            continue;
+        double value = quantity_number(&at.row->at, at.item, in);
+        archive_double(bytes, &value);
+        if (bytes->loading)
+            quantity_put(&at.row->at, at.item, value, in);
+    }
+}
+
+// ---- columns ----
+
+// The text as it stands, or with the name of which, written at *room, which is moved on.
+static const char *say(const char *text, const quantity_walk *at, char **room)
+{
+    if (!strstr(text, "%s"))
+        return text;
+    const char *written = *room;
+    quantity_text(text, at->group->each, at->item, at->things, *room, QUANTITY_TEXT);
+    *room += strlen(*room) + 1;
+    return written;
+}
+
+// How many columns a table has; *several: of them, those that say of which.
+static size_t count_columns(const quantity_table *table, const quantity_things *things,
+                            size_t *several)
+{
+    size_t count = 0;
+    for (int i = 0; i < table->groups; i++) {
+        const quantity_group *group = &table->group[i];
+        size_t columns = (size_t)(things->count[group->each] * group->rows);
+        count += columns;
+        *several += group->each > EACH_EARTH ? columns : 0;
+    }
+    return count;
+}
+
+static void add_columns(quantity_columns *self, const quantity_part *part,
+                        const quantity_things *things, char **room)
+{
+    for (quantity_walk at = quantity_first(part->table, things); at.row; quantity_next(&at)) {
+        size_t where = at.group->where.offset;
+        size_t offset = at.row->at.offset + (size_t)at.item * at.row->at.stride;
+        self->cell[self->count] =
+            (quantity_cell){part->offset + offset, where ? part->offset + where : 0};
+        self->column[self->count++] =
+            (ld_column){.name = say(at.row->name, &at, room),
+                        .unit = at.row->unit,
+                        .description = say(at.row->description, &at, room)};
+    }
+}
+
+ld_status quantity_columns_make(quantity_columns *self, const quantity_part *parts, int part_count,
+                                const quantity_things *things, ld_error *error)
+{
+    size_t count = 0, several = 0;
+    for (int i = 0; i < part_count; i++)
+        count += parts[i].table ? count_columns(parts[i].table, things, &several) : 0;
+    self->count = 0;
+    self->column = calloc(count, sizeof *self->column);
+    self->cell = calloc(count, sizeof *self->cell);
+    self->text = malloc(several * 2 * QUANTITY_TEXT + 1);
+    if (!self->column || !self->cell || !self->text) {
+        quantity_columns_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the columns' names");
+    }
+    char *room = self->text;
+    for (int i = 0; i < part_count; i++)
+        if (parts[i].table)
+            add_columns(self, &parts[i], things, &room);
+    return LD_OK;
+}
+
+void quantity_columns_free(quantity_columns *self)
+{
+    free(self->column);
+    free(self->cell);
+    free(self->text);
+    *self = (quantity_columns){0};
+}
+
+void quantity_row(const quantity_columns *self, const void *from, double *row)
+{
+    const char *start = from;
+    for (int i = 0; i < self->count; i++) {
+        const quantity_cell *cell = &self->cell[i];
+        bool there = cell->where == 0 || *(const bool *)(start + cell->where);
+        row[i] = there ? *(const double *)(const void *)(start + cell->offset) : NAN;
+    }
+}

@@ -1,0 +1,85 @@
+#include "quantities/study_results.h"
+
+#include <string.h>
+
+#include "base/suggestion.h"
+
+static void settle(quantity_walk *walk)
+{
+    while (walk->row && !walk->row->studied)
+        quantity_next(walk);
+}
+
+quantity_walk study_result_first(const quantity_things *things)
+{
+    quantity_walk walk = quantity_first(&rocket_quantities, things);
+    settle(&walk);
+    return walk;
+}
+
+void study_result_next(quantity_walk *walk)
+{
+    quantity_next(walk);
+    settle(walk);
+}
+
+int study_result_count(const quantity_things *things)
+{
+    int count = 0;
+    for (quantity_walk at = study_result_first(things); at.row; study_result_next(&at))
+        count++;
+    return count;
+}
+
+void study_result_name(const quantity_walk *at, char name[QUANTITY_NAME])
+{
+    quantity_text(at->row->name, at->group->each, at->item, at->things, name, QUANTITY_NAME);
+}
+
+quantity_walk study_result_find(const quantity_things *things, const char *name)
+{
+    quantity_walk at = quantity_find(&rocket_quantities, things, name);
+    if (at.row && !at.row->studied)
+        at.row = NULL;
+    return at;
+}
+
+void study_result_near(const quantity_things *things, const char *name, char near[QUANTITY_NAME])
+{
+    name_suggestion best = suggestion_begin(name);
+    near[0] = 0;
+    for (quantity_walk at = study_result_first(things); at.row; study_result_next(&at)) {
+        char offered[QUANTITY_NAME];
+        const char *before = best.name;
+        study_result_name(&at, offered);
+        suggestion_offer(&best, offered);
+        if (best.name != before) {
+            strcpy(near, offered);
+            best.name = near;
+        }
+    }
+}
+
+const quantity *study_result_like(const char *name)
+{
+    const quantity *row = quantity_like(&rocket_quantities, name);
+    return row && row->studied ? row : NULL;
+}
+
+bool study_result_is_measure(const char *name)
+{
+    const quantity *row = study_result_like(name);
+    return row && !row->unit;
+}
+
+const study_pair study_pairs[STUDY_PAIRS] = {
+    {"Landing points", {"downrange", "drift"}, "m"},
+    {"Attitude at the exit, launcher's axes at ignition",
+     {"since_ignition.pitch", "since_ignition.yaw"},
+     "rad"},
+    {"Rates at the exit, launcher's axes at ignition",
+     {"since_ignition.pitch_rate", "since_ignition.yaw_rate"},
+     "rad/s"},
+    {"Attitude at the exit, ground frame", {"pitch", "yaw"}, "rad"},
+    {"Rates at the exit, ground frame", {"pitch_rate", "yaw_rate"}, "rad/s"},
+};

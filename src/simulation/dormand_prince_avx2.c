@@ -1,8 +1,0 @@
-// Steps in 4 lanes.
-#define LANES 4
-#include "simulation/dormand_prince_code.h"
-
-void dormand_prince_try_avx2(double *block, int count, dormand_prince_slopes *f, void *self)
-{
-    try_steps(block, count, f, self);
-}

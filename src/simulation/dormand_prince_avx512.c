@@ -1,8 +1,0 @@
-// Steps in 8 lanes.
-#define LANES 8
-#include "simulation/dormand_prince_code.h"
-
-void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *f, void *self)
-{
-    try_steps(block, count, f, self);
-}

@@ -1,0 +1,1270 @@
+// The start of a launch: undeformed, or in static equilibrium found by Newton's method.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "math/functions.h"
+#include "math/matrices/lapack.h"
+#include "math/vectors/rotation_vector.h"
+#include "state/carried.h"
+#include "state/launch_state.h"
+
+enum { MAX_FREEDOMS = 12 + LD_MAX_MODAL + BASE_MOST_FREEDOMS };
+
+// Of the rocket on its way: y_S, z_S, psi, theta, and gamma on surfaces where no lock holds it.
+static int rocket_freedoms(const launch_state *self)
+{
+    const launching_system *launching = &self->launcher.launching;
+    bool held = self->rocket->lock.present && launching->lock.holds_roll;
+    return launching->surfaces.count && !held ? 5 : 4;
+}
+
+// Unknowns of the launching subsystem: R's place and attitude (6), q, then those of the rocket, and
+// s where the breech carries it.
+static int launching_freedoms(const launch_state *self)
+{
+    return 6 + self->launcher.launching.layout.nq + rocket_freedoms(self) + self->on_breech;
+}
+
+int simulation_freedoms(const launch_state *self)
+{
+    return launching_freedoms(self) + self->launcher.base.freedom_count;
+}
+
+void simulation_displace(const launch_state *self, int freedom, double change, double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    if (freedom < 3) {
+        y[at->r + freedom] += change;
+    } else if (freedom < 6) {
+        double axis[3] = {0};
+        axis[freedom - 3] = sin(0.5 * change);
+        quat turn = {cos(0.5 * change), axis[0], axis[1], axis[2]};
+        quat q = q_multiply(q_from(y + at->quaternion), turn);
+        memcpy(y + at->quaternion, &q, sizeof q);
+    } else if (freedom < 6 + at->nq) {
+        y[at->q + freedom - 6] += change;
+    } else if (freedom < 6 + at->nq + rocket_freedoms(self)) {
+        y[at->x + X_Y + freedom - 6 - at->nq] += change;
+    } else if (freedom < launching_freedoms(self)) {
+        y[at->x + X_S] += change;
+    } else {
+        const base_system *base = &self->launcher.base;
+        base->kind->dynamics->displace(base, freedom - launching_freedoms(self), change,
+                                       y + self->launcher.base_at);
+    }
+}
+
+launching_phase simulation_start_phase(const launch_state *self)
+{
+    launching_phase phase = {.rocket = true, .locked = true};
+    const ld_rocket *rocket = self->rocket;
+    phase.breech = rocket->start_at;
+    phase.breech_speed = rocket->contact.reference_speed;
+    // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
+    double out = self->model->tubes.length - 1e-6;
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
+        phase.touch_speed[i] = rocket->contact.reference_speed;
+        for (int k = 0; k < LD_MAX_SURFACES; k++)
+            phase.surface_speed[i][k] = rocket->contact.reference_speed;
+    }
+    return phase;
+}
+
+void simulation_straight(const launch_state *self, const base_frame *base, double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    memset(y, 0, (size_t)at->count * sizeof(double));
+    v3_store(y + at->r, base->r);
+    memcpy(y + at->quaternion, &base->q, sizeof base->q);
+    y[at->x + X_S] = self->rocket->start_at;
+    y[at->x + X_Y] = self->launcher.launching.surfaces.line_y;
+    y[at->x + X_Z] = self->launcher.launching.surfaces.line_z;
+}
+
+void simulation_move_with_base(const launch_state *self, double t, double *y)
+{
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    if (launcher->base.kind->dynamics)
+        launcher->base.kind->dynamics->set_off(&launcher->base, y + launcher->base_at);
+    launcher_input input;
+    launching_output unused;
+    launching_pose pose;
+    simulation_input(self, t, y, &input);
+    const base_frame *base = &input.launching.base;
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    v3 r = v3_sub(v3_from(y + at->r), base->r);
+    v3 w = m3_apply_transposed(A, base->w);
+    v3 v = m3_apply_transposed(A, v3_add(base->v, v3_cross(base->w, r)));
+    launching_rocket_pose(&launcher->launching, y, &pose, &unused);
+    v3_store(y + at->v, v);
+    v3_store(y + at->w, w);
+    v3_store(y + at->V, v3_add(v, v3_cross(w, pose.p1)));
+    v3_store(y + at->V + 3, w);
+}
+
+// Step of Newton's differences.
+static const double DIFFERENCE = 1e-8;
+// The phase in which equilibria are found.
+static launching_phase resting_phase(const launch_state *self)
+{
+    launching_phase phase = simulation_start_phase(self);
+    phase.frictionless = true;
+    phase.restoring = RESTORING;
+    return phase;
+}
+
+// O1, the rocket's axes and its section's, in I.
+typedef struct rocket_place {
+    v3 r;
+    m3 A_IB, A_IS;
+} rocket_place;
+
+// What Newton's method solves: the unknowns from `first` on. With `dead` the tube and its rocket
+// are a dead load on the base.
+typedef struct problem {
+    const launch_state *self;
+    double t;
+    const launching_phase *phase;
+    int first, count;
+    bool dead;
+    double spring;                     // [1/s2] holds the rocket's freedoms
+    const rocket_place *place;         // to where it is in space, or, NULL,
+    double rest[SHOE_FREEDOMS];        // where it is in the guide
+    const carried_directions *carried; // less what surfaces carry; NULL: all
+    double h;                          // [m, rad, ...] step of the differences
+    double *jacobian;                  // [count + 1][count + 1] of Newton's method, by columns
+    const base_frame *going; // the base as it moves where it is not held still: through the air
+} problem;
+
+// Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
+static void dead_load(const problem *the, const launcher_input *input, launching_output *out)
+{
+    const launch_state *self = the->self;
+    const launching_system *launching = &self->launcher.launching;
+    const rocket_mass *rocket = &self->motor->full;
+    v3 down = m3_apply_transposed(input->launching.base.A, v3_make(0, -launching->tube.gravity, 0));
+    v3 centre = v3_add(v3_make(self->rocket->start_at, 0, 0), rocket->c);
+    v3 moment = v3_add(v3_make(launching->tube.Sx, 0, 0), v3_scale(rocket->m, centre));
+    out->base_force = v3_scale(launching->tube.m + rocket->m, down);
+    out->base_moment = v3_cross(moment, down);
+}
+
+static rocket_place place_of(const launch_state *self, const double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    launching_pose pose;
+    launching_output unused;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    return (rocket_place){.r = v3_add(v3_from(y + at->r), m3_apply(A, pose.p1)),
+                          .A_IB = m3_mul(A, pose.A_RB),
+                          .A_IS = m3_mul(A, pose.A_RS)};
+}
+
+// How far the rocket stands from a place in space, in the axes of its section.
+static void off_in_space(const launch_state *self, const double *y, const rocket_place *place,
+                         double off[SHOE_FREEDOMS])
+{
+    rocket_place now = place_of(self, y);
+    v3 move = m3_apply_transposed(now.A_IS, v3_sub(now.r, place->r));
+    v3 turn = rv_log(m3_mul(now.A_IB, m3_transpose(place->A_IB)));
+    turn = m3_apply_transposed(now.A_IS, turn);
+    off[0] = move.y;
+    off[1] = move.z;
+    off[2] = turn.z;
+    off[3] = turn.y;
+    off[4] = turn.x;
+}
+
+// How far the rocket stands from where the spring holds it, less what surfaces carry.
+static void off_its_place(const problem *the, const double *y, double off[SHOE_FREEDOMS])
+{
+    if (the->place) {
+        off_in_space(the->self, y, the->place, off);
+        return;
+    }
+    const double *x = y + the->self->launcher.launching.layout.x + X_Y;
+    for (int i = 0; i < SHOE_FREEDOMS; i++)
+        off[i] = x[i] - the->rest[i];
+    if (the->carried)
+        carried_remove(the->carried, off);
+}
+
+// Accelerations of tube and rocket that the lock and the slot leave free.
+static void launching_residual(const problem *the, const double *y, const launching_output *given,
+                               double *r)
+{
+    const launch_state *self = the->self;
+    launching_pose pose;
+    launching_output out = *given;
+    int nq = self->launcher.launching.layout.nq;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &out);
+    v3_store(r, out.a);
+    v3_store(r + 3, out.w_dot);
+    memcpy(r + 6, out.q_ddot, (size_t)nq * sizeof(double));
+    v3 a = m3_apply_transposed(pose.A_RS, out.a_O1);
+    v3 alpha = m3_apply_transposed(pose.A_RS, out.alpha_B);
+    double *rocket = r + 6 + nq;
+    rocket[0] = a.y;
+    rocket[1] = a.z;
+    rocket[2] = alpha.z;
+    rocket[3] = alpha.y;
+    int count = rocket_freedoms(self);
+    if (count > 4)
+        rocket[4] = alpha.x;
+    double off[SHOE_FREEDOMS];
+    off_its_place(the, y, off);
+    for (int i = 0; i < count; i++)
+        rocket[i] -= the->spring * off[i];
+    if (self->on_breech)
+        rocket[count] = a.x;
+}
+
+// What acts in a state at rest: a base in its pose that does not move, no drive; the air goes past
+// as it does where the base moves.
+static void at_rest(const problem *the, const double *y, launcher_input *input)
+{
+    base_frame *base = &input->launching.base;
+    const launch_state *self = the->self;
+    simulation_input(self, the->t, y, input);
+    base->v = base->w = base->a = base->alpha = v3_zero();
+    input->launching.thrust = 0;
+    input->launching.pressure_piece = 0;
+    input->formulation = LD_FORMULATION_REDUCED;
+    if (!self->air || !the->going)
+        return;
+    v3 center = launching_rocket_point(&self->launcher.launching, y, input->launching.mass.c);
+    v3 v = v3_cross(the->going->w, v3_sub(center, the->going->r));
+    input->launching.air.v = v3_sub(input->launching.air.v, v3_add(the->going->v, v));
+}
+
+// The base as it moves with the speeds of y.
+static base_frame going_of(const launch_state *self, double t, const double *y)
+{
+    launcher_input input;
+    launcher_place(&self->launcher, t, y, &input);
+    return input.launching.base;
+}
+
+// The base as it moves where the run begins, in the pose of y.
+static base_frame setting_off(const launch_state *self, double t, const double *y)
+{
+    const base_system *base = &self->launcher.base;
+    double moving[LD_MAX_STATES];
+    memcpy(moving, y, (size_t)self->launcher.state_count * sizeof *y);
+    if (base->kind->dynamics)
+        base->kind->dynamics->set_off(base, moving + self->launcher.base_at);
+    return going_of(self, t, moving);
+}
+
+// What must vanish in equilibrium.
+static int residual(const problem *the, const double *y, double *r)
+{
+    const launch_state *self = the->self;
+    const launcher_system *launcher = &self->launcher;
+    launcher_input input;
+    launcher_output out;
+    double all[MAX_FREEDOMS];
+    at_rest(the, y, &input);
+    input.held = true;
+    const base_system *base = &launcher->base;
+    if (base->kind->dynamics)
+        base->kind->dynamics->rest_of(y + launcher->base_at, &input.rest);
+    if (the->dead) {
+        dead_load(the, &input, &out.launching);
+        if (launcher_evaluate_base(launcher, &input, the->phase, y, &out))
+            return -1;
+    } else {
+        if (launcher_evaluate(launcher, &input, the->phase, y, &out))
+            return -1;
+        launching_residual(the, y, &out.launching, all);
+    }
+    if (base->kind->dynamics)
+        base->kind->dynamics->residual(base, &out.base, all + launching_freedoms(self));
+    memcpy(r, all + the->first, (size_t)the->count * sizeof *r);
+    return 0;
+}
+
+static double norm(int n, const double *r)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += r[i] * r[i];
+    return sqrt(sum);
+}
+
+// One Newton step by central differences: `step` := -J^-1 r.
+static int newton_step(const problem *the, const double *y, const double *r, double *step)
+{
+    int n = the->count;
+    double h = the->h;
+    double *J = the->jacobian, plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
+    double trial[LD_MAX_STATES];
+    lapack_int pivot[MAX_FREEDOMS];
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
+    for (int j = 0; j < n; j++) {
+        memcpy(trial, y, size);
+        simulation_displace(the->self, the->first + j, h, trial);
+        int bad = residual(the, trial, plus);
+        memcpy(trial, y, size);
+        simulation_displace(the->self, the->first + j, -h, trial);
+        if (bad || residual(the, trial, minus))
+            return -1;
+        for (int i = 0; i < n; i++)
+            J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
+        step[j] = -r[j];
+    }
+    return LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, J, n, pivot, step, n);
+}
+
+// Room for the Jacobian of a problem, to be freed: too large for a stack. It may get a freedom
+// more.
+static ld_status make_room(problem *the, ld_error *error)
+{
+    size_t most = (size_t)the->count + 1;
+    the->jacobian = malloc(most * most * sizeof *the->jacobian);
+    return the->jacobian ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the equilibrium");
+}
+
+// Newton with halved steps from the guess in y. Ends where no step makes the residual smaller.
+static double newton(const problem *the, double *y)
+{
+    int n = the->count;
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
+    double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], r_trial[MAX_FREEDOMS];
+    if (residual(the, y, r))
+        return INFINITY;
+    double now = norm(n, r);
+    for (int iteration = 0; iteration < 60; iteration++) {
+        if (newton_step(the, y, r, step))
+            break;
+        double share = 1, next = INFINITY;
+        for (int halving = 0; halving < 25; halving++, share *= 0.5) {
+            memcpy(trial, y, size);
+            for (int j = 0; j < n; j++)
+                simulation_displace(the->self, the->first + j, share * step[j], trial);
+            if (residual(the, trial, r_trial) == 0 && (next = norm(n, r_trial)) < now)
+                break;
+        }
+        if (!(next < now))
+            break;
+        bool rounding = now < 1e-6 && next > 0.1 * now;
+        memcpy(y, trial, size);
+        memcpy(r, r_trial, sizeof r);
+        now = next;
+        if (rounding)
+            break;
+    }
+    return now;
+}
+
+// Newton's method with whole steps: where surfaces are touched and let go of it finds which of them
+// carry, as halved steps, which stop at the kinks, do not. Leaves the best state in y.
+static double newton_whole(const problem *the, double *y)
+{
+    int n = the->count;
+    size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
+    double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], best = INFINITY;
+    memcpy(trial, y, size);
+    for (int iteration = 0; iteration < 30; iteration++) {
+        if (residual(the, trial, r))
+            break;
+        double now = norm(n, r);
+        bool rounding = now > 0.1 * best && best < 1e-6;
+        if (now < best) {
+            best = now;
+            memcpy(y, trial, size);
+        }
+        if (rounding || newton_step(the, trial, r, step))
+            break;
+        for (int j = 0; j < n; j++)
+            simulation_displace(the->self, the->first + j, step[j], trial);
+    }
+    return best;
+}
+
+// How deep a contact is pressed in by `load` [N].
+static double depth_under(const ld_contact *contact, double load)
+{
+    double d_0 = contact->reference_penetration;
+    return d_0 * pow(load / (contact->stiffness * d_0), 1 / contact->exponent);
+}
+
+// How far adaptor i moves from the axis under `load` [N], positive along it, pressed in by `extra`.
+static double offset_under(const ld_rocket *rocket, int i, double load, double extra)
+{
+    const ld_contact *contact = &rocket->contact;
+    if (contact_has(contact->law, LD_CONTACT_HELD))
+        return 0;
+    if (contact_has(contact->law, LD_CONTACT_TWO_SIDED))
+        return load / contact->stiffness;
+    return copysign(rocket->adaptor[i].clearance + depth_under(contact, fabs(load)) + extra, load);
+}
+
+// Guess: adaptors i and j carry the rocket, each on the side that its share of the weight presses
+// it to (one of them on the upper side where the mass centre is not between them).
+static void guess_contacts(const launch_state *self, int i, int j, v3 pull, double extra, double *y)
+{
+    const ld_rocket *rocket = self->rocket;
+    double *x = y + self->launcher.launching.layout.x;
+    double lean = hypot(pull.y, pull.z), weight = self->motor->full.m * lean;
+    double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from;
+    double share = (self->motor->full.c.x - from) / span;
+    double e_i = offset_under(rocket, i, (1 - share) * weight, extra);
+    double e_j = offset_under(rocket, j, share * weight, extra);
+    double slope = (e_j - e_i) / span;
+    double e_0 = e_i - slope * from;
+    x[X_Y] = e_0 * pull.y / lean;
+    x[X_Z] = e_0 * pull.z / lean;
+    x[X_PSI] = slope * pull.y / lean;
+    x[X_THETA] = -slope * pull.z / lean;
+}
+
+// Of a base that is a vehicle.
+static void report_vehicle(const launcher_system *launcher, const launcher_output *out,
+                           const double *y, ld_equilibrium_summary *summary)
+{
+    const vehicle_system *vehicle = base_as_vehicle(&launcher->base);
+    if (!vehicle)
+        return;
+    const double *base = y + launcher->base_at;
+    m3 A = q_matrix(q_from(base + ORIENTATING_QUATERNION));
+    summary->wheel_count = vehicle->marching.wheel_count;
+    for (int j = 0; j < summary->wheel_count; j++) {
+        const wheel_report *wheel = &out->base.report.vehicle.marching.wheel[j];
+        summary->wheel[j].tyre_force = wheel->normal;
+        summary->wheel[j].tyre_deflection = wheel->deflection;
+        v3_store(summary->wheel[j].suspension, wheel->travel);
+    }
+    summary->chassis.y = base[ORIENTATING_R + 1];
+    summary->chassis.pitch = asin(A.a[1][0]);
+    summary->chassis.roll = atan2(-A.a[1][2], A.a[1][1]);
+    for (int i = 0; i < HINGES; i++) {
+        summary->hinge[i].angle = base[ORIENTATING_ANGLE + i];
+        summary->hinge[i].torque = base[ORIENTATING_Z + i];
+    }
+}
+
+static void report(const problem *the, const double *y, ld_equilibrium_summary *summary)
+{
+    const launch_state *self = the->self;
+    launcher_input input;
+    launcher_output out;
+    double r[MAX_FREEDOMS];
+    at_rest(the, y, &input);
+    launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
+    tip_state tip = tip_state_of(self, &input.launching.base, y);
+    *summary = (ld_equilibrium_summary){.lock_force = out.launching.lock_force,
+                                        .breech_force = out.launching.breech_force,
+                                        .slot_force = out.launching.N,
+                                        .tip_sag = {tip.offset.y, tip.offset.z}};
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
+        summary->contact_force[i] = the->phase->passed[i] ? 0 : out.launching.adaptor[i].normal;
+    residual(the, y, r);
+    for (int i = 0; i < the->count; i++)
+        summary->residual = fmax(summary->residual, fabs(r[i]));
+    report_vehicle(&self->launcher, &out, y, summary);
+}
+
+// Gravity [m/s2] in the axes of the undeformed tube on the base as it stands in y.
+static v3 pull_at(const launch_state *self, double t, const double *y)
+{
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    return m3_apply_transposed(input.launching.base.A, v3_make(0, -self->model->gravity, 0));
+}
+
+static bool is_upright(const problem *the, const double *start)
+{
+    v3 pull = pull_at(the->self, the->t, start);
+    return hypot(pull.y, pull.z) < 1e-2 * fabs(pull.x);
+}
+
+// Tube and rocket straight on the base as it stands in `start`.
+static void guess_straight(const problem *the, const double *start, double *y)
+{
+    launcher_input input;
+    simulation_input(the->self, the->t, start, &input);
+    memcpy(y, start, (size_t)the->self->launcher.state_count * sizeof(double));
+    simulation_straight(the->self, &input.launching.base, y);
+}
+
+// Newton's method from the guess in y; the tube alone before its base: it has the kinks.
+static double settle(const problem *the, double *y)
+{
+    problem tube = *the;
+    tube.count = launching_freedoms(the->self);
+    double reached = newton(&tube, y);
+    return tube.count < the->count ? newton(the, y) : reached;
+}
+
+// Newton's method from one pair of carrying adaptors after the other, the outermost first, until
+// one succeeds. `start` has the base in its place. Returns the smallest residual; its state is in
+// y.
+static double try_pairs(const problem *the, const double *start, double extra, double accepted,
+                        double *y)
+{
+    const launch_state *self = the->self;
+    double best = INFINITY, trial[LD_MAX_STATES];
+    v3 pull = pull_at(self, the->t, start);
+    size_t size = (size_t)self->launcher.state_count * sizeof(double);
+    for (int j = self->launcher.launching.adaptors.count - 1; j > 0; j--)
+        for (int i = 0; i < j; i++) {
+            if (the->phase->passed[i] || the->phase->passed[j])
+                continue;
+            guess_straight(the, start, trial);
+            if (hypot(pull.y, pull.z) > 0)
+                guess_contacts(self, i, j, pull, extra, trial);
+            double reached = settle(the, trial);
+            if (reached < best) {
+                best = reached;
+                memcpy(y, trial, size);
+            }
+            if (best <= accepted)
+                return best;
+        }
+    return best;
+}
+
+// The largest acceleration that the spring must hold, and along or about what.
+static double held_by_spring(const problem *the, const double *y, int *worst)
+{
+    double off[SHOE_FREEDOMS];
+    off_its_place(the, y, off);
+    *worst = 0;
+    for (int i = 1; i < rocket_freedoms(the->self); i++)
+        if (fabs(off[i]) > fabs(off[*worst]))
+            *worst = i;
+    return the->spring * fabs(off[*worst]);
+}
+
+// Whether Newton's method has found in y a state that the spring need not hold.
+static bool is_at_rest(const problem *the, const double *y, double reached, double accepted)
+{
+    int unused;
+    return reached <= accepted && held_by_spring(the, y, &unused) <= accepted;
+}
+
+// What nothing carries, as in an upright tube, stays on the axis: a spring, which must find nothing
+// to pull, makes Newton's method regular. The rocket is pressed into the breech by `depth`.
+static double try_centred(const problem *the, const double *start, double depth, double *y)
+{
+    int unused;
+    problem held = *the;
+    held.spring = 1e6;
+    guess_straight(the, start, y);
+    y[the->self->launcher.launching.layout.x + X_S] -= depth;
+    double reached = settle(&held, y), holds = held_by_spring(&held, y, &unused);
+    return holds < 1e-9 * the->self->model->gravity ? reached : INFINITY;
+}
+
+// One adaptor in the plane across the tube: its load, and where that presses it.
+typedef struct lateral {
+    double y, z;
+} lateral;
+
+static lateral pressed_to(const ld_rocket *rocket, int i, lateral load)
+{
+    double size = hypot(load.y, load.z);
+    double offset = size > 0 ? offset_under(rocket, i, size, 0) / size : 0;
+    return (lateral){offset * load.y, offset * load.z};
+}
+
+// Guess: adaptors i and j carry the rocket, which leans, so that its weight along the tube loads
+// them too, and more the more it leans; or it hangs from O1 and i alone is touched (j = i).
+static void guess_leaning(const launch_state *self, int i, int j, v3 pull, double *y)
+{
+    const ld_rocket *rocket = self->rocket;
+    v3 c = self->motor->full.c;
+    double *x = y + self->launcher.launching.layout.x, m = self->motor->full.m;
+    double from = rocket->adaptor[i].at, span = rocket->adaptor[j].at - from, arm = c.x - from;
+    lateral slope = {(pull.y * arm / pull.x - c.y) / c.x, (pull.z * arm / pull.x - c.z) / c.x};
+    lateral at_i = pressed_to(rocket, i, (lateral){m * pull.y, m * pull.z});
+    for (int k = 0; k < 20 && i < j; k++) {
+        // moments about adaptor i; the axial forces act at O1 and at the mass centre
+        if (k == 0)
+            slope = (lateral){0};
+        double off_y = c.y + slope.y * c.x, off_z = c.z + slope.z * c.x;
+        lateral load_j = {m * (pull.y * arm - pull.x * off_y) / span,
+                          m * (pull.z * arm - pull.x * off_z) / span};
+        at_i = pressed_to(rocket, i, (lateral){m * pull.y - load_j.y, m * pull.z - load_j.z});
+        lateral at_j = pressed_to(rocket, j, load_j);
+        slope = (lateral){(at_j.y - at_i.y) / span, (at_j.z - at_i.z) / span};
+    }
+    x[X_Y] = at_i.y - slope.y * from;
+    x[X_Z] = at_i.z - slope.z * from;
+    x[X_PSI] = slope.y;
+    x[X_THETA] = -slope.z;
+}
+
+// `best`: what the state in y has reached.
+static double try_leaning(const problem *the, const double *start, double accepted, double best,
+                          double *y)
+{
+    double trial[LD_MAX_STATES];
+    const launcher_system *launcher = &the->self->launcher;
+    v3 pull = pull_at(the->self, the->t, start);
+    for (int j = launcher->launching.adaptors.count - 1; j >= 0; j--)
+        for (int i = 0; i < j + (pull.x > 0) && best > accepted; i++) {
+            if (the->phase->passed[i] || the->phase->passed[j])
+                continue;
+            guess_straight(the, start, trial);
+            guess_leaning(the->self, i, j, pull, trial);
+            double reached = settle(the, trial);
+            if (reached < best) {
+                best = reached;
+                memcpy(y, trial, (size_t)launcher->state_count * sizeof(double));
+            }
+        }
+    return best;
+}
+
+// The rocket upright: on the axis where nothing pulls it off, else leaning.
+static double try_upright(const problem *the, const double *start, double accepted, double *y)
+{
+    double best = try_centred(the, start, 0, y);
+    if (best <= accepted)
+        return best;
+    // what carries little is pressed in by little
+    problem fine = *the;
+    for (fine.h = 1e-9; fine.h > 1e-13 && best > 1e-3 * accepted; fine.h *= 0.1)
+        best = try_leaning(&fine, start, 1e-3 * accepted, best, y);
+    return best;
+}
+
+// Which directions the surfaces carry in y.
+static void find_carried(const problem *the, const double *y, carried_directions *carried)
+{
+    const launch_state *self = the->self;
+    launcher_input input;
+    launcher_output out;
+    simulation_input(self, the->t, y, &input);
+    launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
+    carried_find(&self->launcher.launching, the->phase, &out.launching, rocket_freedoms(self) > 4,
+                 carried);
+}
+
+// newton_whole() from the guess in `from`, with finer and finer differences: a surface that carries
+// little is pressed in by little.
+static double newton_fine(problem *the, const double *from, double accepted, double *y)
+{
+    double reached = INFINITY;
+    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= accepted); the->h *= 0.1) {
+        memcpy(y, from, (size_t)the->self->launcher.state_count * sizeof(double));
+        reached = newton_whole(the, y);
+    }
+    return reached;
+}
+
+// Twice the kinetic energy that two small displacements have in common, taken as rates: gravity
+// takes a rocket that is let go where this is positive of its way and what pulls it.
+static double in_common(const rocket_mass *rocket, const double a[SHOE_FREEDOMS],
+                        const double b[SHOE_FREEDOMS])
+{
+    v3 turn_a = v3_make(a[4], a[3], a[2]), turn_b = v3_make(b[4], b[3], b[2]);
+    v3 move_a = v3_add(v3_make(0, a[0], a[1]), v3_cross(turn_a, rocket->c));
+    v3 move_b = v3_add(v3_make(0, b[0], b[1]), v3_cross(turn_b, rocket->c));
+    return rocket->m * v3_dot(move_a, move_b) + v3_dot(turn_a, m3_apply(rocket->J, turn_b));
+}
+
+// Whether a rocket on surfaces stands so far from its centred place that they do not hold it. Round
+// ones do not feel its roll.
+static bool is_away(const problem *the, const double *y)
+{
+    const double widest = 0.5; // [m, rad]
+    int count = the->self->launcher.launching.surfaces.flat ? SHOE_FREEDOMS : SHOE_FREEDOMS - 1;
+    double off[SHOE_FREEDOMS];
+    problem centred = *the;
+    centred.place = NULL;
+    off_its_place(&centred, y, off);
+    for (int i = 0; i < count; i++)
+        if (fabs(off[i]) > widest)
+            return true;
+    return false;
+}
+
+// Whether the rocket has gone further than a small way, or once round.
+static bool is_far(const launch_state *self, const double *from, const double *to)
+{
+    const double longest = 0.05; // [m, rad]
+    int x = self->launcher.launching.layout.x + X_Y;
+    for (int i = 0; i < SHOE_FREEDOMS; i++)
+        if (fabs(to[x + i] - from[x + i]) > longest)
+            return true;
+    return false;
+}
+
+// Lets a rocket on surfaces go from y to where gravity takes it, in small ways: a spring holds it
+// to where it is, then to where that took it, softer each time. Back over a top leads no way that
+// gravity takes: the spring was too soft, as where Newton's method finds none. Ends where the
+// spring has nothing to hold, or away from the guide. Returns the residual.
+static double let_go(const problem *the, double accepted, double *y)
+{
+    const double softest = 1e-3, hardest = 1e9;
+    const rocket_mass *rocket = &the->self->motor->full;
+    double trial[LD_MAX_STATES], off[SHOE_FREEDOMS], before[SHOE_FREEDOMS] = {0};
+    double best = INFINITY, ease = 0.1;
+    int unused;
+    // between round surfaces it may turn half round
+    int most = the->self->launcher.launching.surfaces.flat ? 500 : 1000;
+    problem held = *the;
+    held.spring = 1e7;
+    for (int step = 0; step < most && held.spring < hardest; step++) {
+        rocket_place place = place_of(the->self, y);
+        held.place = &place;
+        double reached = newton_fine(&held, y, accepted, trial);
+        off_its_place(&held, trial, off);
+        if (reached > accepted || is_far(the->self, y, trial) ||
+            in_common(rocket, off, before) < 0) {
+            best = fmin(best, reached);
+            held.spring /= ease * ease;
+            ease = sqrt(ease);
+            continue;
+        }
+        memcpy(y, trial, sizeof trial);
+        memcpy(before, off, sizeof off);
+        if (held_by_spring(&held, y, &unused) <= 0.1 * accepted || is_away(the, y))
+            return reached;
+        held.spring = fmax(softest, ease * held.spring);
+        ease = fmax(0.1, ease * ease);
+    }
+    return best;
+}
+
+// Equilibrium of a rocket on surfaces, pressed into the breech by `depth`: upright in its centred
+// place, where nothing pulls it off that, or from there, or from beside it by `nudge` [m, rad], to
+// where gravity and the air take it. What the surfaces that it touches do not carry is centred if
+// it also rests there, else it stays where it came to.
+static double find_beside(problem *the, const double *start, double depth, const double *nudge,
+                          carried_directions *carried, double accepted, double *y)
+{
+    const launch_state *self = the->self;
+    double found[LD_MAX_STATES];
+    the->rest[0] = self->launcher.launching.surfaces.line_y;
+    the->rest[1] = self->launcher.launching.surfaces.line_z;
+    *carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
+    the->carried = NULL;
+    the->spring = 0;
+    the->h = DIFFERENCE;
+    if (!nudge && is_upright(the, start)) {
+        double centred = try_centred(the, start, depth, y);
+        if (centred <= accepted)
+            return centred;
+    }
+    problem tube = *the;
+    tube.count = launching_freedoms(self);
+    guess_straight(the, start, found);
+    found[self->launcher.launching.layout.x + X_S] -= depth;
+    for (int i = 0; i < SHOE_FREEDOMS && nudge; i++)
+        found[self->launcher.launching.layout.x + X_Y + i] += nudge[i];
+    double reached = let_go(&tube, accepted, found);
+    if (the->count > tube.count && reached <= accepted)
+        reached = let_go(the, accepted, found);
+    memcpy(y, found, sizeof found);
+    the->carried = carried;
+    the->spring = 1e4;
+    if (!(reached <= accepted) || is_away(the, y))
+        return reached;
+    find_carried(the, found, carried);
+    for (int i = 0; i < 2; i++) {
+        reached = newton_fine(the, found, accepted, y);
+        for (int again = 0; again < 3; again++) // each ends at the first small gain
+            reached = fmin(reached, newton(the, y));
+        if (is_at_rest(the, y, reached, accepted))
+            break;
+        memcpy(the->rest, found + self->launcher.launching.layout.x + X_Y, sizeof the->rest);
+    }
+    return reached;
+}
+
+// The same from the centred place and, where that finds nothing, from beside it: centred, Newton's
+// method stands at the kink of surfaces that are touched without play. Where both find nothing,
+// what is left is that of the centred place.
+static double find_on_surfaces(problem *the, const double *start, double depth,
+                               carried_directions *carried, double accepted, double *y)
+{
+    const double aside[SHOE_FREEDOMS] = {1e-4};
+    double reached = find_beside(the, start, depth, NULL, carried, accepted, y);
+    if (is_at_rest(the, y, reached, accepted))
+        return reached;
+    problem again = *the;
+    carried_directions other;
+    double found[LD_MAX_STATES];
+    double next = find_beside(&again, start, depth, aside, &other, accepted, found);
+    if (!is_at_rest(&again, found, next, accepted))
+        return reached;
+    *carried = other;
+    *the = again;
+    the->carried = carried;
+    memcpy(y, found, sizeof found);
+    return next;
+}
+
+// Whether a rocket that leans in an upright guide would also rest on its other side: started there,
+// mirrored at the guide line, it stays away from where it rests in y.
+static void look_elsewhere(const problem *the, const double *start, double accepted,
+                           const double *y, ld_equilibrium_summary *summary)
+{
+    enum { PLACES = sizeof summary->taken / sizeof *summary->taken };
+    const double apart = 1e-5; // [m, rad]
+    const launch_state *self = the->self;
+    const launching_system *launching = &self->launcher.launching;
+    const double *x = y + launching->layout.x,
+                 line[SHOE_FREEDOMS] = {launching->surfaces.line_y, launching->surfaces.line_z};
+    double mirror[SHOE_FREEDOMS] = {0}, found[LD_MAX_STATES], off = 0;
+    for (int i = 0; i < PLACES; i++) {
+        mirror[i] = line[i] - x[X_Y + i];
+        off = fmax(off, fabs(mirror[i]));
+    }
+    if (!launching->surfaces.count || !is_upright(the, start) || off < apart)
+        return;
+    problem other = *the;
+    carried_directions carried;
+    double depth = self->rocket->start_at - x[X_S];
+    double reached = find_beside(&other, start, depth, mirror, &carried, accepted, found);
+    if (!is_at_rest(&other, found, reached, accepted))
+        return;
+    for (int i = 0; i < PLACES; i++) {
+        summary->taken[i] = x[X_Y + i] - line[i];
+        summary->other[i] = found[launching->layout.x + X_Y + i] - line[i];
+        summary->rests_elsewhere |= fabs(summary->other[i] - summary->taken[i]) > apart;
+    }
+}
+
+// Says so where gravity, or the air with it, pulls the rocket along a direction in which nothing
+// carries it.
+static ld_status check_carried(const problem *the, const double *y, double accepted,
+                               ld_error *error)
+{
+    static const char *const names[] = {"along y of the guide", "along z of the guide",
+                                        "about z of the guide", "about y of the guide",
+                                        "about the guide line"};
+    int worst;
+    if (held_by_spring(the, y, &worst) <= accepted)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_LAUNCH,
+                   "run.start: no static equilibrium: %s the rocket %s, and no surface carries it "
+                   "there; \"run.start: undeformed\" starts without it",
+                   the->self->air ? "gravity and the air pull" : "gravity pulls", names[worst]);
+}
+
+// Equilibrium of tube and rocket, and of the base with them where that is among the unknowns, which
+// stands in `start` in its place. Returns the residual; the state is in y.
+static double find_rest(const problem *the, const double *start, double accepted, double *y)
+{
+    double best = INFINITY;
+    if (is_upright(the, start))
+        best = try_upright(the, start, accepted, y);
+    // an adaptor that hardly carries is found from where it is pressed in [m]
+    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
+        best = fmin(best, try_pairs(the, start, extra, accepted, y));
+    // a hard contact is pressed in by less than the differences
+    problem fine = *the;
+    for (fine.h = 0.1 * the->h; fine.h > 1e-13 && best > accepted; fine.h *= 0.1)
+        best = fmin(best, try_pairs(&fine, start, 0, accepted, y));
+    return best;
+}
+
+// Without a lock the breech carries a rocket that gravity presses on it by more than nothing: s is
+// an unknown, too.
+static void stand_on_breech(launch_state *self, problem *the, launching_phase *phase)
+{
+    self->on_breech = true;
+    phase->locked = false;
+    the->count++;
+}
+
+// Finds the equilibrium as find_rest() does, with the lock closed, or on surfaces. Where there is
+// none, and gravity presses the rocket on the breech, it goes there then, on surfaces at once.
+static double find_start(launch_state *self, problem *the, launching_phase *phase,
+                         const double *start, carried_directions *carried, double accepted,
+                         double *y)
+{
+    double pressed = -self->motor->full.m * pull_at(self, the->t, start).x;
+    bool stands =
+        !self->rocket->lock.present && pressed > 1e-9 * self->motor->full.m * self->model->gravity;
+    double depth = stands ? depth_under(&self->rocket->contact, pressed) : 0;
+    self->on_breech = false;
+    if (self->launcher.launching.surfaces.count) {
+        if (stands)
+            stand_on_breech(self, the, phase);
+        return find_on_surfaces(the, start, depth, carried, accepted, y);
+    }
+    double best = find_rest(the, start, accepted, y);
+    if (!stands || !(best <= accepted))
+        return best;
+    stand_on_breech(self, the, phase);
+    y[self->launcher.launching.layout.x + X_S] -= depth;
+    best = INFINITY;
+    for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
+        best = newton(the, y);
+    return best;
+}
+
+// A base with a motion of its own in equilibrium under a tube that is a dead load; one that is
+// stepped where it `stands`; others need nothing.
+static ld_status settle_base(const launch_state *self, double t, const launching_phase *phase,
+                             const double *stands, double accepted, double *y, ld_error *error)
+{
+    memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
+    const base_system *base = &self->launcher.base;
+    const base_dynamics *dynamics = base->kind->dynamics;
+    double *of_base = y + self->launcher.base_at;
+    if (stands)
+        memcpy(of_base, stands, (size_t)base->state_count * sizeof *of_base);
+    if (base->kind->tell && !self->told)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "base.kind: external: nobody tells where the base is; a program does that, "
+                       "from the start on and step by step");
+    if (base->kind->tell)
+        base->kind->tell(base, t, true, self->told, of_base);
+    if (!dynamics)
+        return LD_OK;
+    dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m, of_base);
+    int first = launching_freedoms(self);
+    problem dead = {
+        .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
+    dead.count = simulation_freedoms(self) - first;
+    ld_status status = make_room(&dead, error);
+    if (status)
+        return status;
+    double reached = newton(&dead, y);
+    free(dead.jacobian);
+    if (reached <= accepted)
+        return LD_OK;
+    return dynamics->no_rest(reached, error);
+}
+
+// Whether the run can begin in the equilibrium found, which its base keeps.
+static ld_status keep_rest(launch_state *self, double t, const double *y, ld_error *error)
+{
+    const launcher_system *launcher = &self->launcher;
+    const base_dynamics *dynamics = launcher->base.kind->dynamics;
+    if (!dynamics)
+        return LD_OK;
+    const double *base = y + launcher->base_at;
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    dynamics->rest_of(base, &self->rest);
+    return dynamics->check_rest(&launcher->base, &input.found, base, error);
+}
+
+// What is said of a start with one adaptor in the tube, or NULL.
+static const char *held_by_one(const launching_phase *phase, int adaptors)
+{
+    int inside = 0;
+    for (int i = 0; i < adaptors; i++)
+        inside += !phase->passed[i];
+    return inside < 2 ? "only the rear adaptor is in the tube" : NULL;
+}
+
+// What Newton's method came down to [m/s2], for a message; nothing where it met no finite number.
+static const char *smallest_residual(double best, char text[64])
+{
+    text[0] = 0;
+    if (isfinite(best))
+        snprintf(text, 64, " (smallest residual %.3g m/s2)", best);
+    return text;
+}
+
+static double accepted_residual(const launch_state *self)
+{
+    return 1e-6 * (1 + self->model->gravity);
+}
+
+// The same for tube and rocket where the base stands in `start`. Kilometres from the origin it is
+// the rounding of places, which strains the supports: what a move of the straight tube by some of
+// it leaves.
+static double accepted_at(const problem *the, const double *start)
+{
+    enum { ROUNDINGS = 4 };
+    double y[LD_MAX_STATES], plus[MAX_FREEDOMS], minus[MAX_FREEDOMS], square = 0;
+    double accepted = accepted_residual(the->self);
+    guess_straight(the, start, y);
+    v3 r = v3_from(y + the->self->launcher.launching.layout.r);
+    for (int k = 0; k < 3; k++) {
+        simulation_displace(the->self, k, the->h, y);
+        int bad = residual(the, y, plus);
+        simulation_displace(the->self, k, -2 * the->h, y);
+        if (bad || residual(the, y, minus))
+            return accepted;
+        simulation_displace(the->self, k, the->h, y);
+        for (int i = 0; i < the->count; i++)
+            square += pow((plus[i] - minus[i]) / (2 * the->h), 2);
+    }
+    return fmax(accepted, ROUNDINGS * 0x1p-53 * v3_norm(r) * sqrt(square));
+}
+
+// The wrench of tube and rocket at rest on their base.
+static ld_status resting_wrench(const launch_state *self, double t, const double *y,
+                                base_wrench *wrench, ld_error *error)
+{
+    launching_phase phase = resting_phase(self);
+    launcher_input input;
+    launcher_output out;
+    simulation_input(self, t, y, &input);
+    if (launcher_evaluate(&self->launcher, &input, &phase, y, &out))
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "run.start: the equations of motion gave no finite result");
+    const m3 *A = &input.launching.base.A;
+    wrench->force = m3_apply(*A, out.launching.base_force);
+    wrench->moment = m3_apply(*A, out.launching.base_moment);
+    return LD_OK;
+}
+
+// A start on a base that stands, and is looked for where it does.
+typedef ld_status find_on_base(launch_state *self, double t, const double *stands, double *y,
+                               ld_equilibrium_summary *summary, ld_error *error);
+
+// A base that is stepped stands where its motion says under the wrench of a tube that rests where
+// the base stands: in turns, until both agree. Others stand at once.
+static ld_status find_with_base(launch_state *self, double t, find_on_base *find, double *y,
+                                ld_equilibrium_summary *summary, ld_error *error)
+{
+    enum { MOST_TURNS = 50 };
+    const double agreed = 1e-12, near = 1e-7; // [m], [rad]
+    const base_system *base = &self->launcher.base;
+    const base_stepping *stepping = base->kind->stepping;
+    double state[BASE_MOST_STATES], moved = INFINITY;
+    base_wrench on = {.force = v3_zero()};
+    ld_status status = LD_OK;
+    if (!stepping)
+        return find(self, t, NULL, y, summary, error);
+    for (int i = 0; i < MOST_TURNS && !status && moved > agreed; i++) {
+        status = stepping->stand(base, t, &on, state, &moved, error);
+        if (!status)
+            status = find(self, t, state, y, summary, error);
+        if (!status)
+            status = resting_wrench(self, t, y, &on, error);
+    }
+    return status || moved <= near
+               ? status
+               : ld_fail(error, LD_ERR_NUMERIC,
+                         "run.start: base and tube find no common rest: %d times the base was told "
+                         "the tube's wrench, and it still moves by %.3g m or rad",
+                         MOST_TURNS, moved);
+}
+
+static ld_status undeformed_on(launch_state *self, double t, const double *stands, double *y,
+                               ld_equilibrium_summary *summary, ld_error *error)
+{
+    (void)summary;
+    launching_phase phase = resting_phase(self);
+    ld_status status = settle_base(self, t, &phase, stands, accepted_residual(self), y, error);
+    if (!status)
+        status = keep_rest(self, t, y, error);
+    if (status)
+        return status;
+    launcher_input input;
+    simulation_input(self, t, y, &input);
+    simulation_straight(self, &input.launching.base, y);
+    return LD_OK;
+}
+
+ld_status simulation_undeformed(launch_state *self, double t, double *y, ld_error *error)
+{
+    return find_with_base(self, t, undeformed_on, y, NULL, error);
+}
+
+static ld_status equilibrium_on(launch_state *self, double t, const double *stands, double *y,
+                                ld_equilibrium_summary *summary, ld_error *error)
+{
+    launching_phase phase = resting_phase(self);
+    const char *why = held_by_one(&phase, self->launcher.launching.adaptors.count);
+    if (why)
+        return ld_fail(error, LD_ERR_LAUNCH,
+                       "rocket.start_at: no static equilibrium at the start: %s; \"run.start: "
+                       "undeformed\" starts without it",
+                       why);
+    double start[LD_MAX_STATES];
+    self->on_breech = false;
+    ld_status status = settle_base(self, t, &phase, stands, accepted_residual(self), start, error);
+    if (status)
+        return status;
+    base_frame going = setting_off(self, t, start);
+    problem whole = {.self = self,
+                     .t = t,
+                     .phase = &phase,
+                     .count = simulation_freedoms(self),
+                     .h = DIFFERENCE,
+                     .going = &going};
+    status = make_room(&whole, error);
+    if (status)
+        return status;
+    carried_directions carried;
+    double accepted = accepted_at(&whole, start);
+    double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
+    char left[64];
+    if (!(best <= accepted))
+        status = ld_fail(
+            error, LD_ERR_NUMERIC,
+            "run.start: no static equilibrium was found%s: is the rocket held by gravity on two "
+            "adaptors? \"run.start: undeformed\" starts without it",
+            smallest_residual(best, left));
+    if (!status)
+        status = check_carried(&whole, y, accepted, error);
+    if (!status)
+        status = keep_rest(self, t, y, error);
+    if (!status) {
+        report(&whole, y, summary);
+        look_elsewhere(&whole, start, accepted, y, summary);
+    }
+    free(whole.jacobian);
+    return status;
+}
+
+ld_status simulation_equilibrium(launch_state *self, double t, double *y,
+                                 ld_equilibrium_summary *summary, ld_error *error)
+{
+    return find_with_base(self, t, equilibrium_on, y, summary, error);
+}
+
+double simulation_start_time(const ld_model *model)
+{
+    return fmin(model->firing[0].at, 0 - model->run.lead_in);
+}
+
+ld_status simulation_start(launch_state *self, double t, double *y, ld_equilibrium_summary *summary,
+                           ld_error *error)
+{
+    const ld_simulation *system = self->system;
+    if (system->stability)
+        return ld_fail(error, system->stability, "%s", system->unstable.text);
+    ld_status status = self->model->run.start == LD_START_EQUILIBRIUM
+                           ? simulation_equilibrium(self, t, y, summary, error)
+                           : simulation_undeformed(self, t, y, error);
+    if (!status)
+        simulation_move_with_base(self, t, y);
+    return status;
+}
+
+// ---- another tube ----
+
+// Adds u to the speeds of the base, and to tube and rocket what that changes of the motion of a
+// body that rides on it.
+static void add_rigid_motion(const launch_state *self, double t, const double *u, double *y)
+{
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    launcher_input before, after;
+    launching_output unused;
+    launching_pose pose;
+    launcher_place(launcher, t, y, &before);
+    double *speed = y + launcher->base_at + launcher->base.speed_at;
+    for (int i = 0; i < launcher->base.speed_count; i++)
+        speed[i] += u[i];
+    launcher_place(launcher, t, y, &after);
+    const base_frame *base = &before.launching.base;
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    v3 dw = v3_sub(after.launching.base.w, base->w), arm = v3_sub(v3_from(y + at->r), base->r);
+    v3 dv = v3_add(v3_sub(after.launching.base.v, base->v), v3_cross(dw, arm));
+    dw = m3_apply_transposed(A, dw);
+    dv = m3_apply_transposed(A, dv);
+    launching_rocket_pose(&launcher->launching, y, &pose, &unused);
+    v3_store(y + at->v, v3_add(v3_from(y + at->v), dv));
+    v3_store(y + at->w, v3_add(v3_from(y + at->w), dw));
+    v3_store(y + at->V, v3_add(v3_from(y + at->V), v3_add(dv, v3_cross(dw, pose.p1))));
+    v3_store(y + at->V + 3, v3_add(v3_from(y + at->V + 3), dw));
+}
+
+// Generalised momentum of the base, tube and rocket in the sum: the derivative of the kinetic
+// energy, a quadratic form, along each of its speeds.
+static void generalised_momentum(const launch_state *self, double t, const launching_phase *phase,
+                                 const double *y, double p[BASE_MOST_SPEEDS])
+{
+    for (int j = 0; j < self->launcher.base.speed_count; j++) {
+        double energy[2];
+        for (int side = 0; side < 2; side++) {
+            double moved[LD_MAX_STATES], u[BASE_MOST_SPEEDS] = {0};
+            launcher_input input;
+            u[j] = side ? 1 : -1;
+            memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
+            add_rigid_motion(self, t, u, moved);
+            simulation_input(self, t, moved, &input);
+            energy[side] = launcher_kinetic_energy(&self->launcher, &input, phase, moved);
+        }
+        p[j] = 0.5 * (energy[1] - energy[0]);
+    }
+}
+
+// Speeds of the base at which all, rigid as it now is, has the generalised momentum p.
+static ld_status speeds_from_momentum(const launch_state *self, double t, const double *p,
+                                      double *y, ld_error *error)
+{
+    launching_phase phase = simulation_start_phase(self);
+    double M[BASE_MOST_SPEEDS * BASE_MOST_SPEEDS], u[BASE_MOST_SPEEDS];
+    lapack_int pivot[BASE_MOST_SPEEDS];
+    int n = self->launcher.base.speed_count;
+    // columns of the mass matrix: momentum at unit speeds
+    for (int j = 0; j < n; j++) {
+        double moved[LD_MAX_STATES], unit[BASE_MOST_SPEEDS] = {0};
+        unit[j] = 1;
+        memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
+        add_rigid_motion(self, t, unit, moved);
+        generalised_momentum(self, t, &phase, moved, M + n * j);
+    }
+    memcpy(u, p, sizeof u);
+    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n))
+        return ld_fail(error, LD_ERR_NUMERIC, "the base's mass matrix is singular");
+    add_rigid_motion(self, t, u, y);
+    return LD_OK;
+}
+
+ld_status simulation_change_tube(launch_state *self, int next, double t, double *y, ld_error *error)
+{
+    launching_phase phase = resting_phase(self), without = {.rocket = false};
+    const launcher_system *launcher = &self->launcher;
+    double p[BASE_MOST_SPEEDS], still[LD_MAX_STATES];
+    size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
+    size_t speeds = (size_t)launcher->base.speed_count * sizeof(double);
+    int speeds_at = launcher->base_at + launcher->base.speed_at;
+    if (speeds)
+        generalised_momentum(self, t, &without, y, p);
+    launcher_select(&self->launcher, next);
+    const char *why = held_by_one(&phase, launcher->launching.adaptors.count);
+    if (why)
+        return ld_fail(error, LD_ERR_LAUNCH,
+                       "rocket.start_at: tube %d finds no static equilibrium when it takes its "
+                       "place at t = %.6g s: %s",
+                       self->model->firing[next].tube, t, why);
+
+    // the new tube in equilibrium on the base held still
+    base_frame going = going_of(self, t, y);
+    memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
+    memset(still + speeds_at, 0, speeds);
+    self->on_breech = false;
+    problem tube = {.self = self,
+                    .t = t,
+                    .phase = &phase,
+                    .count = launching_freedoms(self),
+                    .h = DIFFERENCE,
+                    .going = &going};
+    ld_status status = make_room(&tube, error);
+    if (status)
+        return status;
+    double found[LD_MAX_STATES];
+    carried_directions carried;
+    double accepted = accepted_at(&tube, still);
+    double best = find_start(self, &tube, &phase, still, &carried, accepted, found);
+    free(tube.jacobian);
+    char left[64];
+    if (!(best <= accepted))
+        return ld_fail(
+            error, LD_ERR_NUMERIC,
+            "tube %d finds no static equilibrium when it takes its place at t = %.6g s%s",
+            self->model->firing[next].tube, t, smallest_residual(best, left));
+    status = check_carried(&tube, found, accepted, error);
+    if (status)
+        return status;
+    memcpy(y, found, launching);
+
+    if (!speeds) {
+        simulation_move_with_base(self, t, y);
+        return LD_OK;
+    }
+    memset(y + speeds_at, 0, speeds);
+    return speeds_from_momentum(self, t, p, y, error);
+}

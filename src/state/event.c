@@ -1,0 +1,95 @@
+#include "state/event.h"
+
+#include <math.h>
+
+static void add(event_list *self, event_kind kind, int count)
+{
+    for (int i = 0; i < count; i++)
+        self->event[self->count++] = (event){kind, i};
+}
+
+event_list events_of(const launch_state *self, bool base)
+{
+    event_list list = {0};
+    const launching_system *launching = &self->launcher.launching;
+    int adaptors = launching->adaptors.count, surfaces = launching->surfaces.count;
+    bool by_touch = launching->adaptors.law.by_touch;
+    add(&list, EVENT_RELEASE, 1);
+    add(&list, EVENT_EXIT, adaptors);
+    add(&list, EVENT_TOUCH, surfaces ? 0 : adaptors);
+    add(&list, EVENT_SURFACE, by_touch ? adaptors * surfaces : 0);
+    add(&list, EVENT_BASE, base ? self->launcher.base.event_count : 0);
+    add(&list, EVENT_BREECH, 1);
+    add(&list, EVENT_STOP, LD_SLIDE_STOPS * model_slide_count(self->model));
+    return list;
+}
+
+int event_find(const event_list *self, event_kind kind, int index)
+{
+    for (int i = 0; i < self->count; i++)
+        if (self->event[i].kind == kind && self->event[i].index == index)
+            return i;
+    return -1;
+}
+
+double event_stop_press(const launch_state *self, int index, const launching_output *out)
+{
+    // beyond rounding, which would make a tube that lies on a stop without a force come and go
+    const double least = 1e-13;
+    int slide = index / LD_SLIDE_STOPS, stop = index % LD_SLIDE_STOPS;
+    double press =
+        supports_stop_press(&self->launcher.launching.supports, slide, stop, &out->slide[slide]);
+    return press + self->phase.pushing[slide][stop] * least;
+}
+
+// Rises through zero at a first touch. Zero itself, where between opposite surfaces without play
+// one touches and the other lets go, counts as touched, else it would be an event of both; by so
+// much that the search for a crossing, which goes by the values, does not stay on the spot.
+static double touch_of(double penetration)
+{
+    const double least = 1e-15; // [m]
+    return (penetration < 0 ? penetration : fmax(penetration, least)) / 1e-3;
+}
+
+static double value_of(event one, const launch_state *self, const launcher_output *out)
+{
+    const launching_phase *phase = &self->phase;
+    const launching_system *launching = &self->launcher.launching;
+    const adaptor_report *adaptor = out->launching.adaptor;
+    const double away = 1;
+    bool touching = launching->adaptors.law.by_touch;
+    if (one.kind == EVENT_BASE)
+        return out->base.event[one.index] / 1e-3;
+    if (one.kind == EVENT_STOP) // the tube still recoils when the rocket has left
+        return event_stop_press(self, one.index, &out->launching) / 1e-3;
+    if (!phase->rocket)
+        return away;
+    switch (one.kind) {
+    case EVENT_RELEASE:
+        return phase->locked && !self->held_down
+                   ? 1 - out->launching.lock_force / self->rocket->lock.release_force
+                   : away;
+    case EVENT_EXIT: {
+        double length = launching->tube.flexible.length;
+        return phase->passed[one.index] ? away : (length - adaptor[one.index].s) / length;
+    }
+    case EVENT_TOUCH:
+        return touching && !phase->passed[one.index] ? touch_of(adaptor[one.index].penetration)
+                                                     : away;
+    case EVENT_SURFACE: {
+        int i = one.index / launching->surfaces.count, k = one.index % launching->surfaces.count;
+        return phase->passed[i] ? away : touch_of(out->launching.shoe[i].penetration[k]);
+    }
+    case EVENT_BREECH: // the rear adaptor is at s
+        return touching && !phase->locked ? (phase->breech - adaptor[0].s) / 1e-3 : away;
+    default:
+        return away;
+    }
+}
+
+void events_evaluate(const event_list *self, const launch_state *launch, const launcher_output *out,
+                     double *g)
+{
+    for (int i = 0; i < self->count; i++)
+        g[i] = value_of(self->event[i], launch, out);
+}

@@ -1,0 +1,202 @@
+#include "state/jets.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "integration/dormand_prince.h"
+
+// How far apart the places of a course are [s]; between them it is a cubic. How far beyond the
+// table's end it goes on [m]: so much may a mouth leave the way that it had when its rocket left.
+static const double spacing = 1e-3, margin = 100;
+enum { MOST_PLACES = 20000 };
+
+void jets_free(jets *self)
+{
+    for (int i = 0; i < self->count; i++)
+        free(self->of[i].place);
+    self->count = 0;
+}
+
+v3 jets_mouth(const ld_model *model, int tube, int launching)
+{
+    const ld_layout *layout = &model->tubes.layout;
+    v3 between =
+        v3_sub(orientating_tube_place(layout, tube), orientating_tube_place(layout, launching));
+    return v3_add(between, v3_make(model->tubes.length, 0, 0));
+}
+
+// ---- a course
+
+typedef struct course {
+    const flight_system *flight;
+    flight_phase phase;
+} course;
+
+static void slopes(const double *t, const double *y, double *y_dot, void *self)
+{
+    course *flown = self;
+    flight_rates(flown->flight, &flown->phase, *t, y, y_dot);
+}
+
+static bool is_lit(const jet *self)
+{
+    return self->piece + 1 < (int)self->flight->motor.corner_count;
+}
+
+static double corner_of(const jet *self)
+{
+    return is_lit(self) ? self->t_ignition + self->flight->motor.t[self->piece + 1] : INFINITY;
+}
+
+// Begins the pieces that t has reached.
+static bool pass_corners(jet *self, double t)
+{
+    int before = self->piece;
+    while (is_lit(self) && t >= corner_of(self))
+        self->piece++;
+    return self->piece != before;
+}
+
+static bool keep_place(jet *self, const course *flown, double t, const double *y)
+{
+    if ((self->count & (self->count - 1)) == 0) { // full at each power of two
+        size_t room = self->count ? 2 * (size_t)self->count : 1;
+        jet_place *place = realloc(self->place, room * sizeof *place);
+        if (!place)
+            return false;
+        self->place = place;
+    }
+    flight_pose pose;
+    flight_leave(flown->flight, &flown->phase, t, y, &pose);
+    self->place[self->count++] = (jet_place){t, pose.r_O1, pose.v_O1};
+    return true;
+}
+
+// The last place is out of reach of the mouth, had that gone on as it did.
+static bool is_away(const jet *self, double reach)
+{
+    const jet_place *last = &self->place[self->count - 1];
+    v3 mouth = v3_axpy(self->mouth.r, last->t - self->mouth.t, self->mouth.v);
+    return !(v3_norm(v3_sub(last->r, mouth)) < reach + margin);
+}
+
+// Flies from place to place; `self` has the pieces that hold.
+static ld_status find_course(jet *self, course *flown, double reach, const double *state,
+                             ld_error *error)
+{
+    jet now = *self; // its pieces as it flies
+    double t = self->mouth.t;
+    dormand_prince steps = {.f = slopes, .self = flown, .count = flown->flight->states};
+    double y[DORMAND_PRINCE_STATES] = {0};
+    for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
+        steps.step.absolute[i] = 1e-8;
+    memcpy(y, state, FLIGHT_STATES * sizeof *y);
+    dormand_prince_start(&steps, t, y);
+    bool kept = keep_place(self, flown, t, y);
+    while (kept && is_lit(&now) && !is_away(self, reach) && self->count < MOST_PLACES) {
+        double next = t + self->count * spacing;
+        while (steps.step.t < next) {
+            double stop =
+                fmin(corner_of(&now), wind_next_corner(&flown->flight->wind, steps.step.t));
+            if (!dormand_prince_step(&steps, fmin(next, stop)))
+                return ld_fail(error, LD_ERR_NUMERIC,
+                               "the equations of flight gave no finite result after the exit, at "
+                               "t = %.9g s",
+                               steps.step.t);
+            if (pass_corners(&now, steps.step.t))
+                flight_set_piece(flown->flight, &flown->phase, now.piece);
+            if (steps.step.t == stop)
+                dormand_prince_start(&steps, steps.step.t, steps.step.y);
+        }
+        kept = keep_place(self, flown, steps.step.t, steps.step.y);
+    }
+    return kept ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a rocket's jet");
+}
+
+ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase, int tube,
+                   const jet_place *mouth, const double *state, ld_error *error)
+{
+    const ld_table *table = &self->model->platform.jet;
+    jet *one = &self->of[self->count++];
+    *one = (jet){.flight = flight,
+                 .t_ignition = phase->t_ignition,
+                 .piece = phase->piece,
+                 .tube = tube,
+                 .mouth = *mouth};
+    for (size_t k = 0; k < flight->motor.corner_count; k++)
+        one->greatest = fmax(one->greatest, flight->motor.thrust[k]);
+    course flown = {flight, *phase};
+    double reach = table->data[(table->rows - 1) * table->columns];
+    return find_course(one, &flown, reach, state, error);
+}
+
+// ---- what they do
+
+// O1 at t, within the course; cubic Hermite between two places.
+static v3 place_at(const jet *self, double t)
+{
+    double share = (t - self->place[0].t) / spacing;
+    int k = (int)fmin(fmax(share, 0), self->count - 2);
+    const jet_place *a = &self->place[k], *b = a + 1;
+    double h = b->t - a->t, x = (t - a->t) / h;
+    v3 r = v3_scale((1 + 2 * x) * (1 - x) * (1 - x), a->r);
+    r = v3_axpy(r, x * (1 - x) * (1 - x) * h, a->v);
+    r = v3_axpy(r, x * x * (3 - 2 * x), b->r);
+    return v3_axpy(r, -x * x * (1 - x) * h, b->v);
+}
+
+// Linear between the rows, 0 beyond the last.
+static double table_at(const ld_table *table, double distance)
+{
+    const double *row = table->data;
+    for (size_t k = 1; k < table->rows; k++, row += 2)
+        if (distance < row[2])
+            return row[1] + (row[3] - row[1]) * (distance - row[0]) / (row[2] - row[0]);
+    return 0;
+}
+
+jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching)
+{
+    const ld_platform *platform = &self->model->platform;
+    jet_wrench sum = {0};
+    for (int i = 0; i < self->count; i++) {
+        const jet *one = &self->of[i];
+        const motor *thruster = &one->flight->motor;
+        if (one->count < 2 || t > one->place[one->count - 1].t)
+            continue;
+        double thrust = motor_thrust(thruster, one->piece, t - one->t_ignition);
+        v3 mouth = jets_mouth(self->model, one->tube, launching);
+        v3 away = v3_sub(place_at(one, t), v3_add(tube->r, m3_apply(tube->A, mouth)));
+        double full = platform->jet_scale * table_at(&platform->jet, v3_norm(away));
+        double force = full * thrust / one->greatest;
+        v3 back = v3_make(-force, 0, 0);
+        sum.force = v3_add(sum.force, back);
+        sum.moment = v3_add(sum.moment, v3_cross(mouth, back));
+    }
+    return sum;
+}
+
+double jets_next_corner(const jets *self)
+{
+    double next = INFINITY;
+    for (int i = 0; i < self->count; i++)
+        next = fmin(next, corner_of(&self->of[i]));
+    return next;
+}
+
+bool jets_pass_corners(jets *self, double t)
+{
+    bool passed = false;
+    for (int i = 0; i < self->count; i++)
+        passed |= pass_corners(&self->of[i], t);
+    return passed;
+}
+
+int jets_pieces(const jets *self)
+{
+    int sum = 0;
+    for (int i = 0; i < self->count; i++)
+        sum += self->of[i].piece + 1;
+    return sum;
+}

@@ -1,0 +1,58 @@
+// Takes a launcher forward in time, step by step: all subsystems by one integrator, or each by its
+// own with exchanges at fixed instants (run.coupling; model.md section 2), or all by one outside,
+// of which only the points are told.
+#ifndef LD_SIMULATION_PROPAGATOR_H
+#define LD_SIMULATION_PROPAGATOR_H
+
+#include "integration/integrator.h"
+#include "state/event.h"
+
+typedef struct propagator propagator;
+
+// `outside`: whoever calls takes the steps. *out stays as it is where it fails.
+ld_status propagator_create(launch_state *launch, bool outside, propagator **out, ld_error *error);
+void propagator_free(propagator *self);
+
+// As those of integrator.h, for the whole state; an event is asked for by its name.
+// `anew`: the state is another one, nothing of before goes on.
+ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error);
+integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
+integrator_outcome propagator_return(propagator *self, double t, ld_error *error);
+double propagator_time(const propagator *self);
+double propagator_previous_time(const propagator *self);
+const double *propagator_state(const propagator *self);
+void propagator_interpolate(propagator *self, double t, double *y);
+int propagator_event(const propagator *self, event_kind kind, int index);
+// Estimated error of the last step, of tube and rocket alone [base_at]; 0 of a long one.
+void propagator_error(propagator *self, double *error);
+int64_t propagator_steps(const propagator *self);
+// Of the integrator that took most: apart from the tube's, the base's have theirs.
+int64_t propagator_most_steps(const propagator *self);
+int64_t propagator_evaluations(const propagator *self);
+// As integrator_archive, into one of an equal launch in the same state.
+void propagator_archive(propagator *self, archive *bytes);
+
+// Of one whose steps are taken outside. Where its integrator is; then its time and its state are
+// these.
+void propagator_place(propagator *self, double t, const double *y);
+// A step ends there, once: whether an event lies on the way. LD_ERR_NUMERIC: the equations have no
+// solution.
+bool propagator_has_accepted(const propagator *self);
+ld_status propagator_accept(propagator *self, bool *crossed, ld_error *error);
+// What has happened at the step's end has happened; the next one begins.
+ld_status propagator_go_on(propagator *self, ld_error *error);
+// Takes out of the state there what it has drifted from where constraints hold it; false where that
+// is less than what the tolerances leave to it.
+bool propagator_project(propagator *self, double *y);
+
+// Of any: the events, and what an absolute tolerance of each state is for a tolerance of 1; 0: it
+// steers no step.
+const event_list *propagator_events(const propagator *self);
+void propagator_sizes(const propagator *self, double *size);
+
+// What the equations gave at (t, y): the latest evaluation where it is that of the same state under
+// the same conditions, else a new one.
+// NULL where they have no solution.
+const launcher_output *simulation_output(launch_state *self, double t, const double *y);
+
+#endif

@@ -1,0 +1,195 @@
+#include "studies/run/ledger.h"
+
+#include <inttypes.h>
+#include <time.h>
+
+#include "studies/run/until.h"
+
+bool ledger_goes_on(void *self)
+{
+    const study_ledger *ledger = self;
+    const ld_study_options *options = ledger->options;
+    return !ledger->stopped && (!options->go_on || options->go_on(options->self));
+}
+
+static void stop(study_ledger *self, ld_status status, const ld_error *error)
+{
+    if (!self->status) {
+        self->status = status;
+        *self->error = *error;
+    }
+    self->stopped = true;
+}
+
+void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
+{
+    pthread_mutex_lock(&self->at_work);
+    stop(self, status, error);
+    pthread_mutex_unlock(&self->at_work);
+}
+
+// ---- handing out
+
+// The next number up to self->look that is not kept; 0: there is none.
+static int64_t next_up_to_look(study_ledger *self)
+{
+    bool there = true;
+    ld_error error;
+    int64_t number = 0;
+    while (there && self->next <= self->look && ledger_goes_on(self)) {
+        number = self->next;
+        self->next += self->step;
+        ld_status status = store_has(&self->store, number, &there, &error);
+        if (status)
+            stop(self, status, &error);
+    }
+    return there || self->stopped ? 0 : number;
+}
+
+// All samples up to self->look are kept: looks whether they are enough, and how many are next.
+static void look_at_rule(study_ledger *self)
+{
+    ld_error error;
+    ld_study_counts *counts = self->counts;
+    ld_status status = store_settle(&self->store, true, &error);
+    if (!status)
+        status = until_holds(self->study, self->folder, self->look, &counts->enough, &error);
+    self->decided = counts->enough || self->look >= self->last;
+    if (!status && self->decided) {
+        self->last = counts->samples = self->look;
+        status = store_set_samples(&self->store, self->last, &error);
+    } else {
+        self->look = self->study->points * until_next_look(&self->study->nominal->scatter,
+                                                           self->look / self->study->points);
+        counts->look = self->look;
+    }
+    if (status)
+        stop(self, status, &error);
+}
+
+static int64_t next_number(study_ledger *self)
+{
+    for (;;) {
+        int64_t number = next_up_to_look(self);
+        self->running += number != 0;
+        if (number != 0 || !ledger_goes_on(self) || self->decided)
+            return number;
+        if (self->running > 0)
+            return LEDGER_WAIT;
+        look_at_rule(self);
+    }
+}
+
+int64_t ledger_next(study_ledger *self)
+{
+    int64_t number;
+    pthread_mutex_lock(&self->at_work);
+    number = next_number(self);
+    pthread_mutex_unlock(&self->at_work);
+    return number;
+}
+
+// ---- keeping
+
+static ld_status put(study_ledger *self, const study_record *record, ld_error *error)
+{
+    ld_status status = store_put(&self->store, record, error);
+    if (status)
+        return status;
+    // where it stops and a reader is in the way, the next run settles it
+    status = store_settle(&self->store, false, error);
+    return ledger_goes_on(self) ? status : LD_OK;
+}
+
+static void keep(study_ledger *self, const study_record *record)
+{
+    ld_error error;
+    self->running -= record->number > 0;
+    if (record->outcome == LD_ERR_INTERRUPTED) {
+        self->stopped = true;
+        return;
+    }
+    ld_status status = record->outcome == LD_ERR_MEMORY
+                           ? ld_fail(&error, LD_ERR_MEMORY, "%s", record->reason)
+                           : put(self, record, &error);
+    if (status) {
+        stop(self, status, &error);
+        return;
+    }
+    self->counts->done++;
+    self->counts->now++;
+    self->counts->failed += record->outcome != LD_OK;
+    if (self->options->progress)
+        self->options->progress(self->options->self, self->counts);
+}
+
+void ledger_keep(study_ledger *self, const study_record *record)
+{
+    pthread_mutex_lock(&self->at_work);
+    keep(self, record);
+    pthread_mutex_unlock(&self->at_work);
+}
+
+// ---- from begin to end
+
+// Someone reads what the writer wants to write: wait as long as the study may go on.
+static int wait_for_reader(void *self, int count)
+{
+    (void)count;
+    nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+    return ledger_goes_on(self);
+}
+
+void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
+                 store_journal journal, const ld_study_options *options, ld_study_counts *counts,
+                 ld_error *error)
+{
+    int64_t shards = options->shards > 0 ? options->shards : 1;
+    *self = (study_ledger){.options = options,
+                           .counts = counts,
+                           .study = study,
+                           .folder = folder,
+                           .next = options->shards > 0 ? options->shard : 1,
+                           .step = shards,
+                           .last = study->samples,
+                           .error = error,
+                           .at_work = PTHREAD_MUTEX_INITIALIZER};
+    *counts = (ld_study_counts){0};
+    ld_status status =
+        store_open(&self->store, folder, options->shard, options->shards, study, journal, error);
+    if (!status) {
+        self->open = true;
+        sqlite3_busy_handler(self->store.database, wait_for_reader, self);
+        status = store_count(&self->store, counts, error);
+    }
+    counts->samples = self->last < self->next ? 0 : (self->last - self->next) / shards + 1;
+    const ld_scatter *scatter = &study->nominal->scatter;
+    self->look = self->last;
+    self->decided = scatter->until_count == 0;
+    if (!self->decided)
+        self->look = counts->look = study->points * until_next_look(scatter, 0);
+    if (status) {
+        self->status = status;
+        self->stopped = true;
+    }
+}
+
+ld_status ledger_close(study_ledger *self)
+{
+    bool interrupted = !ledger_goes_on(self) && self->counts->done < self->counts->samples;
+    if (self->open) {
+        ld_error error;
+        ld_status status = store_settle(&self->store, true, &error);
+        if (status && !interrupted)
+            stop(self, status, &error);
+        status = store_check_place(&self->store, &error);
+        if (status) // there is nothing to go on with
+            stop(self, status, &error);
+        store_close(&self->store);
+    }
+    if (self->status || !interrupted)
+        return self->status;
+    return ld_fail(self->error, LD_ERR_INTERRUPTED,
+                   "interrupted after %" PRId64 " of %" PRId64 " samples; the same command goes on",
+                   self->counts->done, self->counts->samples);
+}

@@ -1,0 +1,48 @@
+// The ledger of a study: hands out the numbers of samples that are not kept yet and keeps the
+// records that come back, whoever runs them. All its functions may be called from several threads
+// at once.
+#ifndef LD_STUDIES_LEDGER_H
+#define LD_STUDIES_LEDGER_H
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include "studies/plan/record.h"
+#include "studies/store/store.h"
+
+typedef struct study_ledger {
+    const ld_study_options *options;
+    ld_study_counts *counts;
+    const ld_study *study;
+    const char *folder;
+    study_store store;
+    bool open;
+    int64_t next, step, last; // number to be looked at, from one to the next, of the last sample
+    int64_t look;             // number after which the stopping rule is looked at; without one last
+    bool decided;             // there is no rule, or it was looked at for the last time
+    int running;              // samples handed out that have not come back
+    ld_status status;         // why it stopped
+    ld_error *error;
+    atomic_bool stopped;
+    pthread_mutex_t at_work; // held by whom the ledger serves
+} study_ledger;
+
+// Opens the folder, which it may make; error and counts are written to until it is closed. Where
+// this fails the ledger is there all the same and hands out nothing.
+void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
+                 store_journal journal, const ld_study_options *options, ld_study_counts *counts,
+                 ld_error *error);
+// @return LD_OK: all samples are kept; LD_ERR_INTERRUPTED; or what went wrong first
+ld_status ledger_close(study_ledger *self);
+
+// The number of a sample to be run; 0: no more; LEDGER_WAIT: it is not known yet, ask again.
+int64_t ledger_next(study_ledger *self);
+enum { LEDGER_WAIT = -1 };
+// Keeps a record; an outcome that is not the sample's stops the study.
+void ledger_keep(study_ledger *self, const study_record *record);
+// Stops: what runs is not waited for.
+void ledger_stop(study_ledger *self, ld_status status, const ld_error *error);
+// Whether samples are still wanted; `self` is a ledger.
+bool ledger_goes_on(void *self);
+
+#endif

@@ -1,0 +1,40 @@
+// Samples side by side on the threads of one process.
+#include "studies/run/ledger.h"
+
+#include "studies/run/worker.h"
+#include <assert.h>
+
+static ld_status check_shard(const ld_study *study, const ld_study_options *options,
+                             ld_error *error)
+{
+    if (options->shards > 0 && study->nominal->scatter.until_count > 0)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "scatter.until wants all samples, of which a shard knows its own only: run "
+                       "the shards with --set scatter.until=, or the study as a whole");
+    if (options->shards == 0 || (options->shard >= 1 && options->shard <= options->shards))
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT, "there is no shard %d of %d: they go from 1/%d to %d/%d",
+                   options->shard, options->shards, options->shards, options->shards,
+                   options->shards);
+}
+
+ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study_options *options,
+                       ld_study_counts *counts, ld_error *error)
+{
+    assert(study && folder && counts);
+    static const ld_study_options none = {0};
+    ld_error own;
+    study_ledger ledger;
+    error = error ? error : &own;
+    options = options ? options : &none;
+    *counts = (ld_study_counts){0};
+    ld_status status = study_check(study, error);
+    if (!status)
+        status = check_shard(study, options, error);
+    if (status)
+        return status;
+    ledger_open(&ledger, study, folder, options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD, options,
+                counts, error);
+    worker_run_side_by_side(&ledger, options->threads);
+    return ledger_close(&ledger);
+}

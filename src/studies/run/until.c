@@ -1,0 +1,46 @@
+#include "studies/run/until.h"
+
+#include <math.h>
+
+#include "studies/store/study_data.h"
+
+int64_t until_next_look(const ld_scatter *scatter, int64_t samples)
+{
+    enum { LEAST_SAMPLES = 20, LEAST_HYPERCUBES = 5 };
+    const double growth = 1.25;
+    bool lhs = scatter->plan == LD_PLAN_LHS;
+    int64_t step = lhs ? scatter->samples / scatter->replicates : 1;
+    double least = lhs ? fmax(LEAST_HYPERCUBES * (double)step, LEAST_SAMPLES) : LEAST_SAMPLES;
+    double wanted = samples == 0 ? least : growth * (double)samples;
+    int64_t next = step * (int64_t)ceil(wanted / (double)step);
+    return next < scatter->samples ? next : scatter->samples;
+}
+
+static ld_status holds_for(const study_data *data, const ld_until *until, int64_t last, bool *holds,
+                           ld_error *error)
+{
+    const char *nearest;
+    double half = INFINITY;
+    const study_column *column = study_data_find(data, until->result, &nearest);
+    if (!column)
+        return ld_fail(error, LD_ERR_INPUT, "until: studies keep no result %s", until->result);
+    ld_status status =
+        study_data_half_width(data, column, until->statistic, until->relative, last, &half, error);
+    *holds = half <= until->half_width;
+    return status;
+}
+
+ld_status until_holds(const ld_study *study, const char *folder, int64_t last, bool *holds,
+                      ld_error *error)
+{
+    const ld_scatter *scatter = &study->nominal->scatter;
+    study_data data;
+    *holds = true;
+    ld_status status = study_data_open(folder, &data, error);
+    if (status)
+        return status;
+    for (int i = 0; i < scatter->until_count && *holds && !status; i++)
+        status = holds_for(&data, &scatter->until[i], last, holds, error);
+    study_data_close(&data);
+    return status;
+}

@@ -1,0 +1,280 @@
+#include "studies/run/worker.h"
+
+#include <errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "flight/flight_lanes.h"
+#include "quantities/study_results.h"
+#include "state/simulation.h"
+
+ld_status worker_create(study_worker *self, const ld_study *study, ld_error *error)
+{
+    *self = (study_worker){.study = study,
+                           .sample = sample_create(&study->sampler[0]),
+                           .summary = calloc(1, sizeof *self->summary),
+                           .record = calloc(1, record_size(&study->shape))};
+    if (self->sample && self->summary && self->record)
+        return LD_OK;
+    worker_free(self);
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for a sample");
+}
+
+void worker_free(study_worker *self)
+{
+    ld_simulation_free(self->simulation);
+    sample_free(self->sample);
+    free(self->summary);
+    free(self->record);
+    *self = (study_worker){0};
+}
+
+typedef struct permission {
+    bool (*go_on)(void *);
+    void *argument;
+} permission;
+
+static bool may_go_on(void *self, double share)
+{
+    const permission *asked = self;
+    (void)share;
+    return asked->go_on(asked->argument);
+}
+
+static ld_status run_sample(study_worker *self, permission *asked, ld_error *error)
+{
+    ld_run_options options = {.self = asked, .progress = may_go_on};
+    ld_status status = simulation_renew(&self->simulation, &self->sample->model, error);
+    return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
+}
+
+// Of what another point of the sweep may not have, such as a slot, or elsewhere, such as an adaptor
+// or a measure by its name.
+static double result_of(const quantity_walk *at, const ld_model *model,
+                        const ld_rocket_summary *rocket)
+{
+    quantity_walk here = *at;
+    quantity_each each = at->group->each;
+    const quantity_things things = quantity_things_of(model);
+    if (at->things->name[each])
+        here.item =
+            quantity_item_named(&things, each, quantity_name_of(at->things, each, at->item));
+    return here.item < 0 || here.item >= things.count[each] ? NAN : quantity_value(&here, rocket);
+}
+
+// The numbers of the record: what was drawn and what came of it.
+static void fill_values(study_worker *self)
+{
+    const ld_model *model = &self->sample->model;
+    const study_shape *shape = &self->record->shape;
+    const double *drawn = self->sample->drawn;
+    double *value = self->record->value;
+    for (int k = 0; k < shape->of_sample; k++)
+        *value++ = *drawn++;
+    for (int i = 0; i < model->firing_count; i++) {
+        *value++ = model->firing[i].tube;
+        for (int k = 0; k < shape->of_rocket; k++)
+            *value++ = *drawn++;
+        const ld_rocket_summary *rocket =
+            i < self->summary->rocket_count ? &self->summary->rocket[i] : NULL;
+        quantity_walk at = study_result_first(&self->study->things);
+        for (; at.row; study_result_next(&at))
+            *value++ = rocket ? result_of(&at, model, rocket) : NAN;
+    }
+}
+
+static ld_status draw(study_worker *self, int64_t number, ld_error *error)
+{
+    const study_sampler *sampler = &self->study->sampler[study_point_of(self->study, number)];
+    self->summary->rocket_count = 0;
+    return sample_draw(self->sample, sampler, study_draw_of(self->study, number), error);
+}
+
+static void fill_record(study_worker *self, int64_t number, ld_status outcome,
+                        const ld_error *error)
+{
+    study_record *record = self->record;
+    record->number = number;
+    record->outcome = outcome;
+    record->shape = self->study->shape;
+    record->shape.rockets = self->sample->model.firing_count;
+    snprintf(record->reason, sizeof record->reason, "%s", outcome ? error->text : "");
+    fill_values(self);
+}
+
+void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument)
+{
+    ld_error error = {0};
+    ld_status outcome = draw(self, number, &error);
+    if (!outcome)
+        outcome = run_sample(self, &(permission){go_on, argument}, &error);
+    fill_record(self, number, outcome, &error);
+}
+
+// ---- flights alone, side by side
+
+typedef struct lane_worker {
+    study_worker worker;
+    int64_t number;
+    ld_error error;
+} lane_worker;
+
+typedef struct lane_workers {
+    study_ledger *ledger;
+    permission asked;
+    ld_run_options options;
+    lane_worker lane[FLIGHT_MOST_LANES];
+    bool waits; // the ledger did not know yet
+} lane_workers;
+
+static bool take_number(lane_workers *self, lane_worker *one)
+{
+    one->number = ledger_next(self->ledger);
+    self->waits = one->number == LEDGER_WAIT;
+    return one->number > 0;
+}
+
+static void keep(lane_workers *self, lane_worker *one, ld_status outcome)
+{
+    fill_record(&one->worker, one->number, outcome, &one->error);
+    ledger_keep(self->ledger, one->worker.record);
+}
+
+static bool next_flight(void *user, int lane, lane_flight *flight)
+{
+    lane_workers *self = user;
+    lane_worker *one = &self->lane[lane];
+    study_worker *worker = &one->worker;
+    while (take_number(self, one)) {
+        one->error = (ld_error){0};
+        ld_status status = draw(worker, one->number, &one->error);
+        if (!status)
+            status = simulation_renew(&worker->simulation, &worker->sample->model, &one->error);
+        if (!status) {
+            ld_summary *summary = worker->summary;
+            flight_alone_prepare(worker->simulation, &self->options, &flight->job, flight->state,
+                                 summary);
+            flight->rocket = &summary->rocket[0];
+            flight->summary = summary;
+            flight->error = &one->error;
+            return true;
+        }
+        keep(self, one, status);
+    }
+    return false;
+}
+
+static void flight_done(void *user, int lane, lane_flight *flight, ld_status status)
+{
+    lane_workers *self = user;
+    (void)flight;
+    keep(self, &self->lane[lane], status);
+}
+
+static ld_status fly_all(study_ledger *ledger, ld_error *error)
+{
+    int lanes = flight_lanes_here();
+    lane_workers *self = calloc(1, sizeof *self);
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for flights side by side");
+    const lane_source source = {next_flight, flight_done, self, NULL};
+    self->ledger = ledger;
+    self->asked = (permission){ledger_goes_on, ledger};
+    self->options = (ld_run_options){.self = &self->asked, .progress = may_go_on};
+    ld_status status = LD_OK;
+    for (int i = 0; i < lanes && !status; i++)
+        status = worker_create(&self->lane[i].worker, ledger->study, error);
+    while (!status) {
+        status = flight_lanes_fly(lanes, &source, error);
+        if (!self->waits)
+            break;
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    }
+    for (int i = 0; i < lanes; i++)
+        worker_free(&self->lane[i].worker);
+    free(self);
+    return status;
+}
+
+// ---- all
+
+static ld_status run_one_by_one(study_ledger *ledger, ld_error *error)
+{
+    study_worker worker;
+    ld_status status = worker_create(&worker, ledger->study, error);
+    if (status)
+        return status;
+    for (int64_t number; (number = ledger_next(ledger)) != 0;) {
+        if (number == LEDGER_WAIT) {
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+            continue;
+        }
+        worker_run(&worker, number, ledger_goes_on, ledger);
+        ledger_keep(ledger, worker.record);
+    }
+    worker_free(&worker);
+    return LD_OK;
+}
+
+static bool has_launches(const ld_study *study)
+{
+    int i = 0;
+    while (i < study->points && !model_has_launcher(&study->model[i]))
+        i++;
+    return i < study->points;
+}
+
+void worker_run_all(study_ledger *ledger)
+{
+    ld_error error;
+    bool flights = !has_launches(ledger->study);
+    ld_status status = flights ? fly_all(ledger, &error) : run_one_by_one(ledger, &error);
+    if (status)
+        ledger_stop(ledger, status, &error);
+}
+
+static void *run_all(void *ledger)
+{
+    worker_run_all(ledger);
+    return NULL;
+}
+
+int worker_start(pthread_t *thread, study_ledger *ledger)
+{
+    enum { STACK = 8 << 20 }; // whatever the limit of this process, by which it would be chosen
+    pthread_attr_t attributes;
+    int problem = pthread_attr_init(&attributes);
+    if (problem)
+        return problem;
+    problem = pthread_attr_setstacksize(&attributes, STACK);
+    if (!problem)
+        problem = pthread_create(thread, &attributes, run_all, ledger);
+    pthread_attr_destroy(&attributes);
+    return problem;
+}
+
+void worker_run_side_by_side(study_ledger *ledger, int threads)
+{
+    ld_error error;
+    int others = threads > 1 ? threads - 1 : 0, started = 0, problem = 0;
+    pthread_t *thread = calloc((size_t)others + 1, sizeof *thread);
+    if (!thread)
+        problem = ENOMEM;
+    while (!problem && started < others) {
+        problem = worker_start(&thread[started], ledger);
+        started += !problem;
+    }
+    if (problem) {
+        ld_fail(&error, LD_ERR_MISSING, "cannot start thread %d of %d: %s", started + 2, threads,
+                strerror(problem));
+        ledger_stop(ledger, LD_ERR_MISSING, &error);
+    }
+    worker_run_all(ledger);
+    while (started > 0)
+        pthread_join(thread[--started], NULL);
+    free(thread);
+}

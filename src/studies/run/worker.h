@@ -1,0 +1,35 @@
+// One who runs samples, one after the other.
+#ifndef LD_STUDIES_WORKER_H
+#define LD_STUDIES_WORKER_H
+
+#include "launchdyn/simulation.h"
+#include "studies/plan/record.h"
+#include "studies/plan/study.h"
+#include "studies/run/ledger.h"
+
+typedef struct study_worker {
+    const ld_study *study;
+    study_sample *sample;
+    ld_simulation *simulation; // of the sample run last
+    ld_summary *summary;
+    study_record *record; // of the sample run last
+} study_worker;
+
+ld_status worker_create(study_worker *self, const ld_study *study, ld_error *error);
+void worker_free(study_worker *self);
+
+// Runs sample `number` into the record. The outcomes LD_ERR_INTERRUPTED, where go_on(argument) said
+// false, and LD_ERR_MEMORY are not the sample's: such a record is not to be kept.
+void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument);
+
+// Runs samples that the ledger hands out until there are no more: the work of one thread.
+void worker_run_all(study_ledger *ledger);
+
+// Starts a thread that does so; returns 0, or why there is none (an errno).
+int worker_start(pthread_t *thread, study_ledger *ledger);
+
+// The same on `threads` threads (fewer than 1 are one), of which the caller's is one. One that
+// cannot be had stops the ledger.
+void worker_run_side_by_side(study_ledger *ledger, int threads);
+
+#endif

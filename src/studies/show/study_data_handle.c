@@ -1,0 +1,149 @@
+// A study's data as a handle.
+#include <math.h>
+#include <stdlib.h>
+
+#include "quantities/study_results.h"
+#include "studies/show/footprint.h"
+#include "studies/statistics/sensitivity.h"
+#include "studies/store/study_data.h"
+
+struct ld_study_data {
+    study_data data;
+    study_values read;
+    ld_study_values told;
+    group_statistics statistics;
+    footprint footprint;
+};
+
+ld_status ld_study_data_open(const char *folder, ld_study_data **out, ld_error *error)
+{
+    ld_study_data *self = calloc(1, sizeof *self);
+    *out = NULL;
+    if (!self)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a study's data");
+    ld_status status = study_data_open(folder, &self->data, error);
+    if (status)
+        free(self);
+    else
+        *out = self;
+    return status;
+}
+
+void ld_study_data_close(ld_study_data *self)
+{
+    if (!self)
+        return;
+    study_values_free(&self->read);
+    study_data_close(&self->data);
+    free(self);
+}
+
+const ld_study_column *ld_study_data_column(const ld_study_data *self, int index)
+{
+    return index >= 0 && index < self->data.column_count ? &self->data.column[index] : NULL;
+}
+
+const char *ld_study_data_swept(const ld_study_data *self, int axis)
+{
+    return axis >= 0 && axis < self->data.swept_count ? self->data.swept[axis] : NULL;
+}
+
+const ld_study_point *ld_study_data_point(const ld_study_data *self, int number)
+{
+    return number >= 1 && number <= self->data.point_count ? &self->data.point[number - 1] : NULL;
+}
+
+// Reads columns of a point; what there is of them comes into self->read.
+static ld_status read_columns(ld_study_data *self, int number, const char *const *names,
+                              size_t count, ld_error *error)
+{
+    const ld_study_point *point = ld_study_data_point(self, number);
+    if (!point)
+        return ld_fail(error, LD_ERR_INPUT, "there is no point %d: they go from 1 to %d", number,
+                       self->data.point_count);
+    const study_column **column = calloc(count ? count : 1, sizeof(void *));
+    ld_status status =
+        column ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a study's data");
+    for (size_t i = 0; i < count && !status; i++) {
+        const char *nearest = NULL;
+        column[i] = study_data_find(&self->data, names[i], &nearest);
+        if (!column[i])
+            status = ld_fail(error, LD_ERR_INPUT, "the study has no column \"%s\"%s%s%s", names[i],
+                             nearest ? "; did you mean \"" : "", nearest ? nearest : "",
+                             nearest ? "\"?" : "");
+    }
+    if (!status)
+        status = study_data_read(&self->data, point, column, (int)count, &self->read, error);
+    free(column);
+    return status;
+}
+
+ld_status ld_study_data_values(ld_study_data *self, int point, const char *const *names,
+                               size_t columns, const ld_study_values **values, ld_error *error)
+{
+    ld_status status = read_columns(self, point, names, columns, error);
+    *values = NULL;
+    if (status)
+        return status;
+    self->told = (ld_study_values){.count = self->read.count,
+                                   .sample = self->read.sample,
+                                   .rocket = self->read.rocket,
+                                   .value = (const double *const *)self->read.value};
+    *values = &self->told;
+    return LD_OK;
+}
+
+ld_status ld_study_data_statistics(ld_study_data *self, int point, const char *name,
+                                   const ld_study_statistics **statistics, ld_error *error)
+{
+    const study_values *read = &self->read;
+    ld_status status = read_columns(self, point, &name, 1, error);
+    *statistics = NULL;
+    if (status)
+        return status;
+    status = statistics_of(read->count ? read->value[0] : NULL, read->group, read->count,
+                           &self->statistics);
+    if (status)
+        return ld_fail(error, status, "no memory for the study's statistics");
+    *statistics = &self->statistics;
+    return LD_OK;
+}
+
+ld_status ld_study_data_sensitivity(ld_study_data *self, int point, const char *result,
+                                    const char *factor, ld_estimate *share, ld_error *error)
+{
+    const char *const names[] = {factor, result}, *nearest;
+    const study_values *read = &self->read;
+    ld_status status = read_columns(self, point, names, 2, error);
+    *share = (ld_estimate){NAN, NAN, NAN};
+    if (!status && read->count)
+        *share =
+            sensitivity_of(read->value[0], read->value[1], read->sample, read->group, read->count,
+                           study_data_find(&self->data, factor, &nearest)->per_rocket);
+    return status;
+}
+
+ld_status ld_study_data_footprint(ld_study_data *self, int point, double share,
+                                  const ld_study_footprint **found, ld_error *error)
+{
+    const footprint *of = &self->footprint;
+    ld_status status = read_columns(self, point, study_pairs[STUDY_LANDING].name, 2, error);
+    *found = NULL;
+    if (status)
+        return status;
+    status = footprint_of_values(&self->read, &self->footprint);
+    if (status)
+        return ld_fail(error, status, "no memory for the study's footprints");
+    if (of->on_line)
+        return ld_fail(error, LD_ERR_INPUT, "point %d has no footprints: %s", point,
+                       of->count < 3 ? "fewer than three rockets have landed"
+                                     : "all rockets land on one line");
+    for (int k = 0; k < FOOTPRINT_SHARES; k++)
+        if (of->region[k].share == share)
+            *found = &of->region[k];
+    return *found ? LD_OK
+                  : ld_fail(error, LD_ERR_INPUT,
+                            "there is no footprint of a share of %g: they are of 0.95, 0.99 and "
+                            "0.999",
+                            share);
+}

@@ -1,0 +1,232 @@
+// What carries the tube: where the frame T of the undeformed tube is, how it moves, and what the
+// tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
+// functions, listed in base.c. The equations do not ask which kind it is; base_as_vehicle is there
+// for what a vehicle alone has: subsystems integrated apart, geometry, figures at rest.
+//
+// Some kinds go where time or a caller says. Others have a motion of their own, with rates, works,
+// equilibrium and natural frequencies: they fill in `dynamics`.
+#ifndef LD_SYSTEMS_BASE_H
+#define LD_SYSTEMS_BASE_H
+
+#include "base/archive.h"
+#include "elements/exchange.h"
+#include "model/quantity.h"
+#include "systems/bases/vehicle.h"
+
+enum {
+    BASE_MOST_STATES = ORIENTATING_MOST_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1,
+    BASE_MOST_WORKS = VEHICLE_POWERS,
+    BASE_MOST_EVENTS = LD_MAX_WHEELS,
+    BASE_MOST_SPEEDS = ORIENTATING_SPEEDS,
+    BASE_MOST_FREEDOMS = 3 + 2 * HINGES + 3 * LD_MAX_WHEELS,
+    BASE_GROUPS = 11, // of what moves in a natural mode
+};
+
+typedef struct base_interface base_interface;
+
+// What may act on a launcher from outside, by name.
+typedef struct base_inputs {
+    double motion[6]; // [m], [rad] x, y, z, yaw, pitch, roll of a base that goes where it is told
+    double road[LD_MAX_WHEELS]; // [m] height under each wheel
+    double command[HINGES];     // [rad]
+    v3 force, moment;           // [N], [N m] on the chassis, in I, about its mass centre
+    v3 tube_force, tube_moment; // [N], [N m] on what holds the tube, in T, about its origin
+    launching_load launching;   // on tube and rocket
+} base_inputs;
+
+// A base that is linearised is at rest on flat ground, whatever the scenario moves it by; what is
+// added to that, its rate and, of its motion, its acceleration.
+typedef struct base_disturbance {
+    base_inputs input, rate, acceleration;
+} base_disturbance;
+
+// A base as it was built; a run has a copy (base_share) with `tube` and `disturbed` of its own.
+typedef struct base_system {
+    const base_interface *kind;
+    const ld_model *model;
+    void *own; // what the kind made of the model; constant but for its workspace
+    int tube;  // that launches now, in the order of firing
+    const base_disturbance *disturbed; // linearised; NULL: it goes as the scenario says
+    int state_count, work_count, event_count;
+    int speed_at, speed_count; // in the state: generalised speeds of what carries the tube
+    int freedom_count;         // unknowns of its equilibrium
+    int displacement_count, extra_count; // unknowns of its linearised equations
+} base_system;
+
+// What a kind finds when it places the tube, and wants again in the same evaluation.
+typedef union base_found {
+    orientating_motion vehicle;
+    base_frame fmu; // that it tells
+} base_found;
+
+// What a kind tells besides rates and works.
+typedef union base_report {
+    vehicle_report vehicle;
+} base_report;
+
+// Of a base that an FMU moves.
+typedef struct fmu_instant {
+    double work; // [J] that the wrench did on it
+} fmu_instant;
+
+// What its quantities stand in.
+typedef union base_instant {
+    vehicle_instant vehicle;
+    fmu_instant fmu;
+} base_instant;
+
+// What the tube does to its base, in I, the moment about T's origin.
+typedef struct base_wrench {
+    v3 force, moment; // [N], [N m]
+} base_wrench;
+
+// What keeps what it was in the equilibrium.
+typedef union base_rest {
+    double number[2 * HINGES]; // all of them
+    hinge_rest hinge[HINGES];
+} base_rest;
+
+// What acts on a base.
+typedef struct base_load {
+    v3 force, moment; // [N], [N m] of the tube, about T's origin, in T
+    jet_wrench jet;   // of a vehicle, on its platform
+    base_rest rest;
+    bool held;   // it carries what `rest` says, whatever drives it (equilibrium)
+    bool linear; // no Coulomb friction, its drives linear (equilibrium, linearisation)
+} base_load;
+
+typedef struct base_output {
+    double rate[BASE_MOST_STATES];
+    double power[BASE_MOST_WORKS];
+    double event[BASE_MOST_EVENTS]; // [m] a step ends where one of them rises through zero
+    double elastic;                 // [J]
+    base_report report;
+} base_output;
+
+// Bases with a motion of their own.
+typedef struct base_dynamics {
+    // Rates and what else is told. Other than 0: singular or not finite.
+    int (*evaluate)(const base_system *self, const base_found *found, const base_load *load,
+                    const double *state, base_output *output);
+    double (*kinetic_energy)(const base_system *self, const double *state); // [J]
+    // Absolute tolerances of the states under the run's; where there is no relative one.
+    void (*tolerances)(const base_system *self, double tolerance, double *atol, bool *absolute);
+    // Gives it the velocity with which it starts.
+    void (*set_off)(const base_system *self, double *state);
+
+    // Its part that a state belongs to: 0 is what carries the tube, others touch only that.
+    int (*part_of)(const base_system *self, int state);
+
+    // Equilibrium: a guess under a tube and a rocket of these masses [kg]; its unknowns; what must
+    // vanish; what an equilibrium must fulfil for a run to begin in it; what is kept of it.
+    void (*guess)(const base_system *self, double tube, double rocket, double *state);
+    void (*displace)(const base_system *self, int freedom, double change, double *state);
+    void (*rest_of)(const double *state, base_rest *rest);
+    void (*residual)(const base_system *self, const base_output *output, double *r);
+    ld_status (*check_rest)(const base_system *self, const base_found *found, const double *state,
+                            ld_error *error);
+    // Says that there is none, with the smallest residual found [m/s2].
+    ld_status (*no_rest)(double smallest, ld_error *error);
+
+    // Linearised: small displacements; where in the state their speeds are, and what has a rate
+    // alone. What moves: a group's number and the inertia [kg, kg m2] of a displacement.
+    void (*displace_slightly)(const base_system *self, int displacement, double change,
+                              double *state);
+    int (*speed_of)(const base_system *self, int displacement);
+    int (*extra_of)(const base_system *self, int extra);
+    double (*inertia_of)(const base_system *self, int displacement, int *group);
+    const char *const *groups; // their names, ended by NULL
+    // What holds a displacement still: its key (NULL: nothing does) and what it does, [N], [N m].
+    const char *(*holder_of)(int displacement);
+    double (*held_by)(const base_output *output, int displacement);
+} base_dynamics;
+
+// Bases whose motion is found outside of the equations, from one instant to the next and no
+// further; between two it is known from its state.
+typedef struct base_stepping {
+    // Where it stands at the run's start t [s] under this wrench, of a tube at rest on it, into the
+    // state. It may be asked again with another wrench, before it goes; `moved`: by how much it
+    // then stands elsewhere than before [m], [rad], infinity at first.
+    ld_status (*stand)(const base_system *self, double t, const base_wrench *on, double *state,
+                       double *moved, ld_error *error);
+    // Goes from the instant t on to the next one, the wrench at t being this.
+    ld_status (*go)(const base_system *self, double t, const base_wrench *on, double *state,
+                    ld_error *error);
+    // What it has besides its state, at t, as bytes, or from them into one that has not begun.
+    ld_status (*archive)(const base_system *self, double t, archive *bytes, ld_error *error);
+} base_stepping;
+
+struct base_interface {
+    ld_base_kind kind;
+    // Fills self->own and the counts.
+    ld_status (*build)(base_system *self, ld_error *error);
+    void (*free)(base_system *self);
+    // Puts a workspace of its own in the place of self->own, shares the rest, which outlives it;
+    // NULL: there is none, all is shared.
+    ld_status (*share)(base_system *self, ld_error *error);
+    // Frame T at time t [s] and the base's state.
+    void (*place)(const base_system *self, double t, const double *state, base_frame *tube,
+                  base_found *found);
+    // Yaw, pitch, roll [rad] for output; NULL: those of T.
+    void (*angles)(const base_system *self, double t, double angles[3]);
+    // First and last time [s] that its table covers; NULL: all.
+    void (*span)(const base_system *self, double *first, double *last);
+    // The first instant [s] after t at which a step must end, and the equations change; NULL: none.
+    double (*next_corner)(const base_system *self, double t);
+    // The first instant [s] after t at which it changes its state by itself, as a digital loop
+    // does, infinity: none; what it makes of the state at such an instant. NULL: there are none. A
+    // base that is stepped goes on at them instead.
+    double (*next_sample)(const base_system *self, double t);
+    void (*sample)(const base_system *self, double t, double *state);
+    const base_stepping *stepping; // NULL: its motion is part of the equations, or told
+    // Takes frame T of the instant t [s], the present one, into the state; `first`: nothing of
+    // before goes on. NULL: nobody tells it.
+    void (*tell)(const base_system *self, double t, bool first, const base_frame *now,
+                 double *state);
+    // Columns of its own, which stand in the base_instant that `find` fills; NULL: none.
+    const quantity_table *quantities;
+    void (*find)(const base_system *self, const base_found *found, const base_output *output,
+                 const double *state, base_instant *instant);
+    const base_dynamics *dynamics; // NULL: it has no motion of its own
+    const quantity_table *inputs;  // which of the base_inputs it has; NULL: none
+};
+
+// Those of a base that goes where it is told.
+extern const quantity_table base_motion_inputs;
+
+extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external, base_fmu;
+
+// Columns of the bases of that kind; NULL: they have none of their own.
+const quantity_table *base_quantities(ld_base_kind kind);
+
+ld_status base_build(base_system *self, const ld_model *model, ld_error *error);
+void base_free(base_system *self);
+
+// Makes *self the base of one run; `of` must outlive it.
+ld_status base_share(base_system *self, const base_system *of, ld_error *error);
+void base_free_share(base_system *self);
+
+// First and last time [s] at which the base knows where it is.
+void base_span(const base_system *self, double *first, double *last);
+
+// Frame T of a base with these coordinates, x, y, z [m], yaw, pitch, roll [rad], their rates u and
+// accelerations a, its tube mounted so: A_base,tube.
+void base_frame_at(const double x[6], const double u[6], const double a[6], const m3 *mount,
+                   base_frame *tube);
+// The same frame with its origin elsewhere: `arm` [m] from it, in T.
+void base_frame_go(base_frame *tube, v3 arm);
+
+// Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
+void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);
+
+// What its quantities are at an instant, where it has any of its own.
+void base_find(const base_system *self, const base_found *found, const base_output *output,
+               const double *state, base_instant *instant);
+
+// The road under a vehicle of a run of its own (base_share) is this one, which outlives it.
+void base_ride_on(base_system *self, road *under);
+
+// A base of kind vehicle; NULL: it is none.
+const vehicle_system *base_as_vehicle(const base_system *self);
+
+#endif

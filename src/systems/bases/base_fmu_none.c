@@ -1,0 +1,15 @@
+// In place of base_fmu.c where FMUs are not run: in the binary of an FMU.
+#include "systems/bases/base.h"
+
+static ld_status build(base_system *self, ld_error *error)
+{
+    (void)self;
+    return ld_fail(error, LD_ERR_INPUT, "base.kind: fmu: an FMU runs no other FMU");
+}
+
+static void release(base_system *self)
+{
+    (void)self;
+}
+
+const base_interface base_fmu = {.kind = LD_BASE_FMU, .build = build, .free = release};

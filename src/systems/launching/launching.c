@@ -1,0 +1,253 @@
+#include "systems/launching/launching.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "elements/tail.h"
+#include "elements/tube/tube_dynamics.h"
+#include "model/fields/field.h"
+#include "model/salvo.h"
+
+// ---- set-up ----
+
+static void lay_out(launching_layout *at, int nq)
+{
+    int n = 0;
+    at->nq = nq;
+    at->r = n, n += 3;
+    at->quaternion = n, n += 4;
+    at->v = n, n += 3;
+    at->w = n, n += 3;
+    at->q = n, n += nq;
+    at->q_dot = n, n += nq;
+    at->x = n, n += X_COUNT;
+    at->V = n, n += 6;
+    at->count = n;
+}
+
+void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
+{
+    self->rocket = rocket;
+    const ld_tubes *tubes = &self->model->tubes;
+    adaptors_build(rocket, &self->adaptors);
+    surfaces_build(&tubes->guide, rocket, &self->surfaces);
+    slot_build(&tubes->slot, rocket, &self->slot);
+    lock_build(&rocket->lock, self->slot.present || self->surfaces.flat, &self->lock);
+    crossflow_build(&rocket->aerodynamics, &self->crossflow);
+    self->pressure.start = rocket->start_at;
+}
+
+// Works up to the last kind that the model has.
+static int works_of(const ld_model *model)
+{
+    return model_slide_count(model)    ? POWER_RECOIL + 1
+           : model_has_pressure(model) ? POWER_PRESSURE + 1
+           : model_feels_air(model)    ? POWER_AIR + 1
+                                       : POWER_ALWAYS;
+}
+
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide and pressure, of
+// where the tubes are and of what is asked for.
+static bool same_tube(const ld_tubes *a, const ld_tubes *b)
+{
+    for (const field_row *key = tubes_block.fields; key->name; key++) {
+        bool apart =
+            key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
+            key->offset == offsetof(ld_tubes, slot) ||
+            key->offset == offsetof(ld_tubes, pressure) ||
+            key->offset == offsetof(ld_tubes, guide) || key->offset == offsetof(ld_tubes, station);
+        if (!apart && !field_same(key, a, b))
+            return false;
+    }
+    return true;
+}
+
+launching_tube launching_take_tube(launching_system *self)
+{
+    launching_tube tube = {self->tubes, self->tube.flexible, self->tube.packed};
+    self->tube.flexible = (flexible_tube){0};
+    self->tube.packed = NULL;
+    return tube;
+}
+
+void launching_tube_free(launching_tube *self)
+{
+    flexible_tube_free(&self->tube);
+    free(self->packed);
+    self->packed = NULL;
+}
+
+static void use_tube(launching_system *self, launching_tube *kept)
+{
+    self->tube.flexible = kept->tube;
+    self->tube.packed = kept->packed;
+    *kept = (launching_tube){0};
+}
+
+static ld_status build_tube(launching_system *self, ld_error *error)
+{
+    tube_system *tube = &self->tube;
+    ld_error reason = {0};
+    ld_status status = flexible_tube_build(&tube->flexible, &self->tubes, &reason);
+    if (status)
+        return ld_fail(error, status == LD_ERR_MEMORY ? status : LD_ERR_INPUT, "%s%s",
+                       status == LD_ERR_MEMORY    ? ""
+                       : status == LD_ERR_NUMERIC ? "tubes.sections: "
+                                                  : "tubes.modes: ",
+                       reason.text);
+    size_t count = (size_t)tube->flexible.element_count;
+    tube->packed = aligned_alloc(64, (count * sizeof(packed_element) + 63) / 64 * 64);
+    if (!tube->packed) {
+        launching_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the tube's shapes");
+    }
+    for (size_t i = 0; i < count; i++)
+        tube_pack_element(&tube->flexible, &tube->flexible.element[i], &tube->packed[i]);
+    return LD_OK;
+}
+
+static ld_status build_cuts(launching_system *self, ld_error *error)
+{
+    int count = self->tubes.station_count;
+    if (count == 0)
+        return LD_OK;
+    self->cut = malloc((size_t)count * sizeof *self->cut);
+    if (!self->cut) {
+        launching_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the loads at %d stations", count);
+    }
+    for (int i = 0; i < count; i++)
+        guide_cut_build(&self->cut[i], &self->tube.flexible, &self->tubes, &self->tubes.station[i]);
+    return LD_OK;
+}
+
+ld_status launching_build(launching_system *self, const ld_model *model, launching_tube *kept,
+                          ld_error *error)
+{
+    memset(self, 0, sizeof *self);
+    self->model = model;
+    self->tubes = model->tubes;
+    self->tube.gravity = model->gravity;
+    ld_status status = LD_OK;
+    if (kept && kept->packed && same_tube(&kept->tubes, &self->tubes))
+        use_tube(self, kept);
+    else
+        status = build_tube(self, error);
+    if (status)
+        return status;
+    lay_out(&self->layout, tube_mode_count(&self->tube.flexible));
+    tube_build_rows(model->tubes.support_count, &self->tube);
+    supports_build(&model->tubes, &self->tube, &self->supports);
+    tail_fold(&model->tubes.tail, &self->tube);
+    self->work_count = works_of(model);
+    status = pressure_build(&model->tubes, &self->pressure, error);
+    if (!status)
+        status = build_cuts(self, error);
+    if (status) {
+        launching_free(self);
+        return status;
+    }
+    launching_set_rocket(self, salvo_rocket(model, 0));
+#if defined(__x86_64__)
+    // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
+    self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
+#endif
+    return LD_OK;
+}
+
+void launching_free(launching_system *self)
+{
+    flexible_tube_free(&self->tube.flexible);
+    free(self->tube.packed);
+    self->tube.packed = NULL;
+    pressure_free(&self->pressure);
+    free(self->cut);
+    self->cut = NULL;
+}
+
+bool launching_holds_places(const launching_system *self)
+{
+    return self->adaptors.law.held || self->supports.clamps;
+}
+
+// ---- rates ----
+
+void launching_rates(const launching_system *self, const double *state, const launching_output *out,
+                     bool rocket, double *state_dot)
+{
+    const launching_layout *at = &self->layout;
+    quat q = q_from(state + at->quaternion);
+    v3 v = v3_from(state + at->v), w = v3_from(state + at->w);
+    v3_store(state_dot + at->r, m3_apply(q_matrix(q), v));
+    quat q_dot = q_rate(q, w);
+    memcpy(state_dot + at->quaternion, &q_dot, sizeof q_dot);
+    v3_store(state_dot + at->v, v3_sub(out->a, v3_cross(w, v)));
+    v3_store(state_dot + at->w, out->w_dot);
+    memcpy(state_dot + at->q, state + at->q_dot, (size_t)at->nq * sizeof(double));
+    memcpy(state_dot + at->q_dot, out->q_ddot, (size_t)at->nq * sizeof(double));
+    if (rocket) {
+        // V in R: d/dt V = [a_O1; alpha_B] - w x V
+        memcpy(state_dot + at->x, out->x_dot, X_COUNT * sizeof(double));
+        v3 v_O1 = v3_from(state + at->V), w_B = v3_from(state + at->V + 3);
+        v3_store(state_dot + at->V, v3_sub(out->a_O1, v3_cross(w, v_O1)));
+        v3_store(state_dot + at->V + 3, v3_sub(out->alpha_B, v3_cross(w, w_B)));
+    } else {
+        memset(state_dot + at->x, 0, (X_COUNT + 6) * sizeof(double));
+    }
+}
+
+// ---- loads ----
+
+void launching_find_loads(const launching_system *self, const launching_input *input,
+                          const double *state, const launching_output *out, launching_loads *loads)
+{
+    const launching_layout *at = &self->layout;
+    m3 A_IR = q_matrix(q_from(state + at->quaternion));
+    v3 g = m3_apply_transposed(A_IR, v3_make(0, -self->tube.gravity, 0));
+    guide_motion motion = {.w = v3_from(state + at->w),
+                           .a = v3_sub(out->a, g),
+                           .w_dot = out->w_dot,
+                           .q = state + at->q,
+                           .q_dot = state + at->q_dot,
+                           .q_ddot = out->q_ddot};
+    for (int i = 0; i < input->record->count; i++) {
+        launching_section section;
+        launching_section_at(self, state, self->cut[i].at, &section);
+        loads->station[i] = guide_cut_load(&self->cut[i], &self->tube.flexible, &motion, section.P,
+                                           section.A, &input->record->beyond[i]);
+    }
+    memcpy(loads->support, input->record->support, sizeof loads->support);
+}
+
+// ---- energies ----
+
+double launching_kinetic_energy(const launching_system *self, const launching_input *input,
+                                const launching_phase *phase, const double *state)
+{
+    const launching_layout *at = &self->layout;
+    v3 v = v3_from(state + at->v), w_R = v3_from(state + at->w);
+    double energy =
+        tube_kinetic_energy(&self->tube.flexible, v, w_R, state + at->q, state + at->q_dot) +
+        tail_kinetic_energy(&self->model->tubes.tail, v, w_R);
+    if (phase->rocket) {
+        launching_output out;
+        launching_pose pose;
+        launching_rocket_pose(self, state, &pose, &out);
+        const rocket_mass *mass = &input->mass;
+        v3 v_C = v3_add(pose.v_O1, v3_cross(pose.w_B, m3_apply(pose.A_RB, mass->c)));
+        v3 w = m3_apply_transposed(pose.A_RB, pose.w_B);
+        energy += 0.5 * (mass->m * v3_norm2(v_C) + v3_dot(w, m3_apply(mass->J, w)));
+    }
+    return energy;
+}
+
+double launching_potential_energy(const launching_system *self, const double *state)
+{
+    const launching_layout *at = &self->layout;
+    const ld_tail *tail = &self->model->tubes.tail;
+    v3 S = tube_first_moment(&self->tube.flexible, state + at->q);
+    S.x += tail->mass * tail->center;
+    m3 A_IR = q_matrix(q_from(state + at->quaternion));
+    return self->tube.gravity * (self->tube.m * state[at->r + 1] + m3_apply(A_IR, S).y);
+}

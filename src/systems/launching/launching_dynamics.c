@@ -1,0 +1,318 @@
+// Accelerations of the launching subsystem: the reduced form in the fast layout of formulation.md,
+// section 5. One pass over the elements, no memory but the stack.
+#include "systems/launching/launching_constraints.h"
+
+// Accelerations without constraint forces: r_O and, forward-substituted, e_0.
+LD_INLINE void accelerate_freely(const int lanes, const bool rocket, const launching_system *self,
+                                 const launching_instant *now, constrained *to)
+{
+    v3 f, m;
+    const tube_force *h = &now->on_tube;
+    to->a = to->alpha = v3_zero();
+    if (rocket)
+        rocket_solve(&now->inertia, now->f, now->m, &to->a, &to->alpha);
+    tube_condense(lanes, &self->tube, &now->tube, h, &f, &m);
+    tube_forward(&now->tube, v3_sub(h->f, f), v3_sub(h->m, m), to->rigid);
+    constrained_begin(to);
+}
+
+// Finds the forces of the constraints and adds what they do. False where the knob jams.
+LD_INLINE bool constrain(const int lanes, const launching_system *self,
+                         const launching_instant *now, constraint_set *set, constrained *to)
+{
+    double r[LD_MAX_CONSTRAINTS];
+    constraint_products D;
+    if (!set->count)
+        return true;
+    for (int i = 0; i < set->count; i++)
+        r[i] = -(free_acceleration(lanes, &self->tube, &now->tube,
+                                   &set->section[set->e[i].section].shapes, &set->e[i], to->a,
+                                   to->alpha, to->rigid, &now->on_tube) +
+                 set->e[i].beta);
+    constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
+    if (!constraints_solve(&D, r, set))
+        return false;
+    for (int i = 0; i < set->count; i++)
+        constraint_apply(&set->e[i], set->x[i], to);
+    if (set->sliding)
+        constraint_apply(&set->tangent, set->friction, to);
+    return true;
+}
+
+// The tube's accelerations with the constraint forces.
+LD_INLINE void accelerate_tube(const int lanes, const bool rocket, const launching_system *self,
+                               const launching_instant *now, const constraint_set *set,
+                               const constrained *all, v3 *a, v3 *w_dot, double *q_ddot)
+{
+    tube_backward(&now->tube, all->rigid, a, w_dot);
+    tube_modal_accelerations(lanes, &self->tube, &now->tube,
+                             rocket ? &set->section[0].shapes : NULL, &now->on_tube, all->force[0],
+                             all->mu[0], *a, *w_dot, q_ddot);
+    for (int i = rocket; i < set->section_count; i++)
+        react_on_modes(&self->tube, &set->section[i].shapes, all->force[i], all->mu[i], q_ddot);
+}
+
+LD_INLINE launching_outcome evaluate(const int lanes, const bool rocket, const bool holds,
+                                     const launching_system *self, const launching_input *input,
+                                     const launching_phase *phase, const double *state,
+                                     launching_output *out)
+{
+    launching_instant now;
+    now.input = input;
+    now.phase = phase;
+    now.out = out;
+    memset(out->power, 0, sizeof out->power);
+    now.on_tube.record = input->record;
+    tube_load(lanes, &self->tube, &self->layout, state, &now.tube);
+    tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
+    supports_add(lanes, &self->supports, &self->tube, &now);
+    tube_factor(lanes, &self->tube, &now.tube);
+    if (input->load)
+        load_tip(lanes, input->load, &self->tube, &now);
+    if (rocket)
+        launching_load_rocket(lanes, self, state, &now);
+
+    launching_constraints constraints;
+    constrained all;
+    accelerate_freely(lanes, rocket, self, &now, &all);
+    launching_constrain(lanes, rocket, holds, self, &now, &constraints);
+    if (!constrain(lanes, self, &now, &constraints.set, &all))
+        return LAUNCHING_JAMMED;
+    launching_report(rocket, holds, self, &now, &constraints.set, out);
+    constraints_record(&now, &constraints.set);
+    out->a_O1 = all.a;
+    out->alpha_B = all.alpha;
+    accelerate_tube(lanes, rocket, self, &now, &constraints.set, &all, &out->a, &out->w_dot,
+                    out->q_ddot);
+    return LAUNCHING_OK;
+}
+
+// Instances of the code, each a function of its own: together in one they are 12 % slower. For the
+// usual launch (up to 8 modes a plane, the rocket in the tube, nothing held in its place), for any
+// with as many modes, and for any.
+typedef launching_outcome evaluation(const launching_system *self, const launching_input *input,
+                                     const launching_phase *phase, const double *state,
+                                     launching_output *out);
+
+#define INSTANCE(TARGET, NAME, LANES, ROCKET, HOLDS)                                               \
+    TARGET static __attribute__((noinline)) launching_outcome NAME(                                \
+        const launching_system *self, const launching_input *input, const launching_phase *phase,  \
+        const double *state, launching_output *out)                                                \
+    {                                                                                              \
+        return evaluate(LANES, ROCKET, HOLDS, self, input, phase, state, out);                     \
+    }
+#define INSTANCES(TARGET, USUAL, FEW_MODES, ANY)                                                   \
+    INSTANCE(TARGET, USUAL, 2, true, false)                                                        \
+    INSTANCE(TARGET, FEW_MODES, 2, phase->rocket, launching_holds_places(self))                    \
+    INSTANCE(TARGET, ANY, self->tube.flexible.nbp / 4, phase->rocket, launching_holds_places(self))
+
+INSTANCES(, usual, few_modes, any)
+#if defined(__x86_64__)
+// The same code with the processor's wider instructions: the same bits.
+INSTANCES(__attribute__((target("avx2"))), usual_wide, few_modes_wide, any_wide)
+#endif
+
+launching_outcome launching_evaluate(const launching_system *self, const launching_input *input,
+                                     const launching_phase *phase, const double *state,
+                                     launching_output *out)
+{
+    if (self->tube.flexible.na > 0) // axial modes: the fast layout has none
+        return launching_evaluate_general(self, LD_FORMULATION_REDUCED, input, phase, state, out);
+    bool few = self->tube.flexible.nbp == 8;
+    bool is_usual = few && phase->rocket && !launching_holds_places(self);
+    evaluation *chosen = is_usual ? usual : few ? few_modes : any;
+#if defined(__x86_64__)
+    if (self->wide_instructions)
+        chosen = is_usual ? usual_wide : few ? few_modes_wide : any_wide;
+#endif
+    return chosen(self, input, phase, state, out);
+}
+
+// An impulse along the constraints that takes what is wrong, e.g. their drift, out of the speeds:
+// D x = -wrong, V += r x, eta -= e x.
+static void find_impulse(int lanes, const launching_system *self, const launching_instant *now,
+                         const constraint_set *set, const double *wrong, constrained *impulse)
+{
+    constraint_products D;
+    double x[LD_MAX_CONSTRAINTS];
+    *impulse = (constrained){.a = v3_zero()};
+    constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
+    ldl_factor(set->count, LD_MAX_CONSTRAINTS, D.D[0]);
+    for (int i = 0; i < set->count; i++)
+        x[i] = -wrong[i];
+    ldl_solve(set->count, LD_MAX_CONSTRAINTS, D.D[0], x);
+    for (int i = 0; i < set->count; i++)
+        constraint_apply(&set->e[i], x[i], impulse);
+}
+
+static void load_to_project(int lanes, const launching_system *self, const double *state,
+                            launching_instant *now)
+{
+    memset(&now->on_tube, 0, sizeof now->on_tube);
+    tube_load(lanes, &self->tube, &self->layout, state, &now->tube);
+    tube_factor(lanes, &self->tube, &now->tube);
+}
+
+// What that impulse makes of tube and rocket, with all modes that the tube has.
+static void change_by_impulse(int lanes, const launching_system *self, const launching_instant *now,
+                              const constraint_set *set, const double *state, const double *wrong,
+                              launching_change *change)
+{
+    constrained impulse;
+    if (self->tube.flexible.na > 0) { // the fast layout has no axial ones
+        launching_impulse_general(self, now, set, state, wrong, change);
+        return;
+    }
+    find_impulse(lanes, self, now, set, wrong, &impulse);
+    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &change->a, &change->w_dot,
+                    change->q_ddot);
+    change->a_O1 = impulse.a;
+    change->alpha_B = impulse.alpha;
+}
+
+// Puts the tube where its clamps hold it, by displacements along their forces.
+static void place_on_clamps(int lanes, const launching_system *self, const launching_instant *given,
+                            double *state)
+{
+    const launching_layout *at = &self->layout;
+    const launching_phase tube_alone = {.rocket = false};
+    launching_instant now = *given;
+    now.phase = &tube_alone;
+    for (int pass = 0; pass < 3; pass++) {
+        launching_constraints clamps;
+        launching_change shift;
+        double wrong[LD_MAX_CONSTRAINTS], most = 0;
+        load_to_project(lanes, self, state, &now);
+        launching_constrain(lanes, false, true, self, &now, &clamps);
+        for (int i = 0; i < clamps.set.count; i++) {
+            wrong[i] = clamps.set.e[i].error;
+            most = fmax(most, fabs(wrong[i]));
+        }
+        if (most < 1e-15)
+            return;
+        change_by_impulse(lanes, self, &now, &clamps.set, state, wrong, &shift);
+        quat turned = q_multiply(now.tube.q_IR, rv_quaternion(shift.w_dot));
+        v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, shift.a)));
+        memcpy(state + at->quaternion, &turned, sizeof turned);
+        for (int i = 0; i < at->nq; i++)
+            state[at->q + i] += shift.q_ddot[i];
+    }
+}
+
+// Takes the drift of all constraints out of the speeds.
+static void remove_drift(int lanes, const launching_system *self, const launching_instant *now,
+                         const constraint_set *set, double *state)
+{
+    const launching_layout *at = &self->layout;
+    launching_change change;
+    double drift[LD_MAX_CONSTRAINTS];
+    for (int i = 0; i < set->count; i++)
+        drift[i] = set->e[i].drift;
+    change_by_impulse(lanes, self, now, set, state, drift, &change);
+    if (now->phase->rocket) {
+        v3_store(state + at->V, v3_add(now->rocket.v_O1, change.a_O1));
+        v3_store(state + at->V + 3, v3_add(now->rocket.w_B, change.alpha_B));
+    }
+    v3_store(state + at->v, v3_add(now->tube.v, change.a));
+    v3_store(state + at->w, v3_add(now->tube.w, change.w_dot));
+    for (int i = 0; i < at->nq; i++)
+        state[at->q_dot + i] += change.q_ddot[i];
+}
+
+void launching_project(const launching_system *self, const launching_input *input,
+                       const launching_phase *phase, double *state)
+{
+    const launching_layout *at = &self->layout;
+    int lanes = self->tube.flexible.nbp / 4;
+    launching_output unused;
+    launching_constraints constraints;
+    launching_instant now = {.input = input, .phase = phase, .out = &unused};
+    if (self->supports.clamps)
+        place_on_clamps(lanes, self, &now, state);
+    load_to_project(lanes, self, state, &now);
+    if (phase->rocket) {
+        if (self->adaptors.law.held)
+            ideal_place(&self->adaptors, &self->tube, at, phase, &now.tube, state);
+        rocket_load(&self->tube, at, state, &now.tube, &now.rocket, &unused);
+        rocket_inertia_load(&input->mass, now.rocket.A_RB, &now.inertia);
+    }
+    launching_constrain(lanes, phase->rocket, true, self, &now, &constraints);
+    if (constraints.set.count)
+        remove_drift(lanes, self, &now, &constraints.set, state);
+}
+
+void launching_rocket_pose(const launching_system *self, const double *state, launching_pose *pose,
+                           launching_output *output)
+{
+    tube_state tube;
+    rocket_state rocket;
+    tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
+    rocket_load(&self->tube, &self->layout, state, &tube, &rocket, output);
+    *pose = (launching_pose){rocket.p1, rocket.at.A, rocket.A_RB, rocket.v_O1, rocket.w_B};
+}
+
+v3 launching_rocket_point(const launching_system *self, const double *state, v3 point)
+{
+    const launching_layout *at = &self->layout;
+    const double *x = state + at->x;
+    modal_state modal;
+    element_motion motion;
+    axis_section s;
+    modal_load(self->tube.flexible.nbp / 4, &self->tube, at, state, &modal);
+    s.index = flexible_tube_find(&self->tube.flexible, x[X_S]);
+    element_load(&self->tube, &modal, s.index, &motion);
+    section_load(&self->tube, &motion, x[X_S], &s);
+    v3 r = v3_make(0, x[X_Y], x[X_Z]),
+       turned = m3_apply(rocket_attitude(rocket_turns_of(x)), point);
+    r = v3_add(s.P, m3_apply(s.A, v3_add(r, turned)));
+    return v3_add(v3_from(state + at->r), m3_apply(q_matrix(q_from(state + at->quaternion)), r));
+}
+
+void launching_section_at(const launching_system *self, const double *state, double x,
+                          launching_section *out)
+{
+    const launching_layout *at = &self->layout;
+    v3 v = v3_from(state + at->v), w = v3_from(state + at->w);
+    modal_state modal;
+    element_motion motion;
+    axis_section s;
+    section_rates rates;
+    modal_load(self->tube.flexible.nbp / 4, &self->tube, at, state, &modal);
+    s.index = flexible_tube_find(&self->tube.flexible, x);
+    element_load(&self->tube, &modal, s.index, &motion);
+    section_load(&self->tube, &motion, x, &s);
+    section_rates_load(&motion, &s, &rates);
+    out->P = s.P;
+    out->A = s.A;
+    out->v = v3_add(v3_add(v, v3_cross(w, s.P)), rates.u_dot);
+    out->w = v3_add(w, rates.w);
+}
+
+double launching_offset_rate(const launching_system *self, const double *state, int i)
+{
+    tube_state tube;
+    rocket_state rocket;
+    launching_output unused;
+    adaptor_state adaptor;
+    tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
+    rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
+    adaptor_load(&self->adaptors, &self->tube, &tube, &rocket, i, &adaptor);
+    v3 v_C = v3_add(rocket.v_O1, v3_cross(rocket.w_B, adaptor.arm));
+    adaptor_rates(&tube, &rocket, i, v_C, &adaptor);
+    double e = sqrt(adaptor.y * adaptor.y + adaptor.z * adaptor.z);
+    return (adaptor.y * adaptor.y_dot + adaptor.z * adaptor.z_dot) / e;
+}
+
+double launching_surface_rate(const launching_system *self, const double *state, int i, int k)
+{
+    tube_state tube;
+    rocket_state rocket;
+    launching_output unused;
+    shoe_state shoe;
+    shoe_motion motion;
+    tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
+    rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
+    shoe_load(&self->adaptors, &self->tube, &tube, &rocket, i, &shoe);
+    shoe_motion_load(&tube, &rocket, i, &shoe, &motion);
+    return surface_contact_of(&self->surfaces.surface[k], &rocket, &shoe, &motion).rate;
+}

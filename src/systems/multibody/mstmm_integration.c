@@ -1,0 +1,107 @@
+// Motion of a multibody system in time.
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "integration/integrator.h"
+#include "launchdyn/mstmm.h"
+
+// What the integrator's callback needs; the state is (q, u).
+typedef struct run {
+    ld_mstmm *system;
+    const ld_mstmm_settings *settings;
+    int q_count, u_count, wrench_count;
+    double *tau, *wrench, *state, *atol;
+    ld_error failure;
+} run;
+
+static int derivative(double t, const double *y, double *y_dot, void *self)
+{
+    run *r = self;
+    const double *q = y, *u = y + r->q_count;
+    const double *tau = NULL, *wrench = NULL;
+    if (r->settings->drive) {
+        memset(r->tau, 0, (size_t)r->u_count * sizeof *r->tau);
+        memset(r->wrench, 0, (size_t)r->wrench_count * sizeof *r->wrench);
+        r->settings->drive(t, q, u, r->tau, r->wrench, r->settings->context);
+        tau = r->tau;
+        wrench = r->wrench;
+    }
+    ld_mstmm_rates(r->system, q, u, y_dot);
+    return ld_mstmm_accelerations(r->system, q, u, tau, wrench, y_dot + r->q_count, &r->failure);
+}
+
+static ld_status advance(run *r, integrator *stepper, double t_0, double t_1, ld_error *error)
+{
+    const ld_mstmm_settings *settings = r->settings;
+    ld_status status = integrator_start(stepper, t_0, r->state, error);
+    double every = settings->output_step > 0 ? settings->output_step : t_1 - t_0;
+    const double *y = integrator_state(stepper);
+    if (!status && settings->sink && settings->sink(t_0, y, y + r->q_count, settings->context))
+        return ld_fail(error, LD_ERR_INTERRUPTED, "stopped on request at t = %.9g s", t_0);
+    for (int64_t k = 1; !status && integrator_time(stepper) < t_1; k++) {
+        double t_stop = fmin(t_0 + (double)k * every, t_1);
+        if (t_1 - t_stop < 1e-9 * every)
+            t_stop = t_1;
+        while (integrator_time(stepper) < t_stop)
+            if (integrator_step(stepper, t_stop, error) == INTEGRATOR_FAILED)
+                return r->failure.status ? ld_fail(error, r->failure.status, "%s (t = %.9g s)",
+                                                   r->failure.text, integrator_time(stepper))
+                                         : integrator_failure(stepper);
+        y = integrator_state(stepper);
+        if (settings->sink && settings->sink(t_stop, y, y + r->q_count, settings->context))
+            status = ld_fail(error, LD_ERR_INTERRUPTED, "stopped on request at t = %.9g s", t_stop);
+    }
+    memcpy(r->state, integrator_state(stepper),
+           (size_t)(r->q_count + r->u_count) * sizeof *r->state);
+    return status;
+}
+
+ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings, double t_0,
+                             double t_1, double *q, double *u, ld_mstmm_statistics *statistics,
+                             ld_error *error)
+{
+    run r = {.system = system,
+             .settings = settings,
+             .q_count = ld_mstmm_coordinate_count(system),
+             .u_count = ld_mstmm_speed_count(system),
+             .wrench_count = 6 * ld_mstmm_element_count(system)};
+    size_t nq = (size_t)r.q_count, nu = (size_t)r.u_count, n = nq + nu;
+    if (n == 0 || !(t_1 >= t_0))
+        return ld_fail(error, LD_ERR_INPUT,
+                       n ? "the end lies before the start"
+                         : "a system without hinges does not move");
+    double *block = calloc(2 * n + nu + (size_t)r.wrench_count, sizeof *block);
+    if (!block)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for an integration");
+    r.state = block;
+    r.atol = block + n;
+    r.tau = block + 2 * n;
+    r.wrench = r.tau + nu;
+    memcpy(r.state, q, nq * sizeof *q);
+    memcpy(r.state + nq, u, nu * sizeof *u);
+    for (size_t i = 0; i < n; i++)
+        r.atol[i] = settings->atol > 0 ? settings->atol : 1e-8;
+
+    integrator *stepper = NULL;
+    const integrator_settings setup = {.n = n,
+                                       .method = INTEGRATOR_DORMAND_PRINCE,
+                                       .rtol = settings->rtol > 0 ? settings->rtol : 1e-8,
+                                       .atol = r.atol,
+                                       .rhs = derivative,
+                                       .self = &r};
+    ld_status status = integrator_create(&setup, &stepper, error);
+    if (!status)
+        status = advance(&r, stepper, t_0, t_1, error);
+    if (stepper && statistics) {
+        statistics->steps = integrator_steps(stepper);
+        statistics->evaluations = integrator_evaluations(stepper);
+    }
+    if (!status) {
+        memcpy(q, r.state, nq * sizeof *q);
+        memcpy(u, r.state + nq, nu * sizeof *u);
+    }
+    integrator_free(stepper);
+    free(block);
+    return status;
+}

@@ -1,0 +1,3 @@
+// The sweep for any processor.
+#define SWEEP_NAME sweep_default
+#include "systems/multibody/sweep_code.h"

@@ -1,3 +1,0 @@
-// The sweep for processors with four lanes to a register.
-#define SWEEP_NAME sweep_avx
-#include "systems/sweep_code.h"
