@@ -17,68 +17,6 @@ typedef struct open_file {
     int depth;
 } open_file;
 
-char *reader_beside(scenario_reader *reader, const char *folder, const char *name)
-{
-    bool alone = name[0] == '/' || !folder || !folder[0];
-    size_t length = strlen(name) + (alone ? 0 : strlen(folder)) + 2;
-    char *joined = pool_take(reader, length);
-    if (joined)
-        snprintf(joined, length, "%s%s%s", alone ? "" : folder, alone ? "" : "/", name);
-    return joined;
-}
-
-// The folder part of a file's name: "" without.
-static char *folder_of(scenario_reader *reader, const char *name)
-{
-    const char *slash = strrchr(name, '/');
-    return pool_text(reader, name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
-}
-
-// Reads a file into the source, as `within`; NULL after a message.
-static const ld_source_file *read_file(scenario_reader *reader, text_place place, const char *path,
-                                       const char *file_name, const char *within)
-{
-    char *text;
-    size_t length;
-    ld_error error;
-    if (!reader->source->folder) {
-        reader_refuse(reader, place, path, "file \"%s\" is not among the texts that are kept",
-                      within);
-        return NULL;
-    }
-    ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
-    reader->no_memory |= status == LD_ERR_MEMORY;
-    reader->no_file |= status == LD_ERR_FILE;
-    if (status != LD_OK) {
-        reader_refuse(reader, place, path, "file \"%s\" %s", file_name, error.text);
-        return NULL;
-    }
-    const ld_source_file *file = source_add(reader->source, within, text, length);
-    reader->no_memory |= !file;
-    return file;
-}
-
-text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
-                         const char *name)
-{
-    char *file_name = reader_beside(reader, place.source->folder, name);
-    char *within = reader_beside(reader, place.source->within, name);
-    if (!file_name || !within)
-        return NULL;
-    const ld_source_file *file = source_find(reader->source, within);
-    if (!file)
-        file = read_file(reader, place, path, file_name, within);
-    text_source *opened = file ? pool_take(reader, sizeof *opened) : NULL;
-    if (opened)
-        *opened = (text_source){file_name,
-                                file->text,
-                                file->length,
-                                folder_of(reader, file_name),
-                                1,
-                                folder_of(reader, within)};
-    return reader->no_memory ? NULL : opened;
-}
-
 static tree_node *load(scenario_reader *reader, const text_source *source, const open_file *file);
 
 // The file by which a text is known again where it includes itself, to be freed; NULL: its name.

@@ -206,8 +206,6 @@ text_source *reader_open(scenario_reader *reader, text_place place, const char *
 // its own.
 const char *reader_keep(scenario_reader *reader, text_place place, const char *path,
                         const char *name, const char **digest);
-// The name of a file beside others in a folder, in the pool.
-char *reader_beside(scenario_reader *reader, const char *folder, const char *name);
 
 // Reads a number in plain decimal notation at the start of `text` and returns its end; NULL if
 // there is none, or none that is finite and normal: then `reason` says why, or is NULL.

@@ -6,7 +6,7 @@
 
 #include "scenario/clock_text.h"
 #include "support/check.h"
-#include "systems/bases/base.h"
+#include "systems/bases/base_coordinates.h"
 
 static const double PI = 3.14159265358979323846;
 

@@ -188,6 +188,8 @@ bool field_reach(const ld_model *model, const char *path, field_value *value, ch
                  size_t size);
 
 double field_get(const ld_model *model, const field_place *place);
+// The number with the path of keys; NaN where the model has none.
+double field_number(const ld_model *model, const char *path);
 void field_set(ld_model *model, const field_place *place, double value);
 
 // How many numbers a factor scatters, and the path of each.

@@ -238,6 +238,13 @@ double field_get(const ld_model *model, const field_place *place)
     return place->whole ? *(const int *)at : *(const double *)at;
 }
 
+double field_number(const ld_model *model, const char *path)
+{
+    char why[384];
+    field_place place;
+    return field_locate(model, path, &place, why, sizeof why) ? field_get(model, &place) : NAN;
+}
+
 void field_set(ld_model *model, const field_place *place, double value)
 {
     char *at = (char *)model + place->offset;

@@ -1,6 +1,7 @@
 // Rules of the air on the rocket.
 #include "model/rules/rules.h"
 
+#include <stdio.h>
 #include <strings.h>
 
 // The part of the rocket that has come out of its tube.

@@ -1,5 +1,6 @@
 // Rules of a base whose motion is given: table, sea.
 #include <math.h>
+#include <stdio.h>
 
 #include "model/rules/rules.h"
 

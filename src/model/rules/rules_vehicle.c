@@ -1,6 +1,9 @@
 // Rules that tie keys of the vehicle and its platforms together.
 #include "model/rules/rules.h"
 
+#include <stdio.h>
+#include <string.h>
+
 #define RADIAN (180 / 3.14159265358979323846) // [deg]
 
 // ---- road

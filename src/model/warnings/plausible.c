@@ -1,4 +1,4 @@
-// The walk over the rules of plausibility, and the quantities that they share.
+// The walk over the rules of plausibility.
 #include "model/warnings/plausible.h"
 
 #include <string.h>
@@ -9,105 +9,6 @@ enum { TABLES = 6, MOST_RULES = 256 };
 static const plausible_rule *const tables[TABLES] = {plausible_of_tube,       plausible_of_base,
                                                      plausible_of_rocket,     plausible_of_vehicle,
                                                      plausible_of_stabiliser, plausible_of_run};
-
-// ---- quantities
-
-double plausible_bore(const ld_model *model)
-{
-    bool guides = model_has_launcher(model) && !model_has_surfaces(model);
-    return guides ? model->tubes.section[0].bore_radius : NAN;
-}
-
-double plausible_tube_mass(const ld_tubes *tubes)
-{
-    double mass = tubes->tail.mass;
-    for (int i = 0; i < tubes->section_count; i++) {
-        const ld_section *s = &tubes->section[i];
-        double end = i + 1 < tubes->section_count ? s[1].from : tubes->length;
-        mass += s->mass_per_length * (end - s->from);
-    }
-    for (int i = 0; i < tubes->point_mass_count; i++)
-        mass += tubes->point_mass[i].mass;
-    return mass;
-}
-
-double plausible_peak_thrust(const ld_motor *motor)
-{
-    double peak = 0;
-    for (size_t i = 0; i < motor->thrust.rows; i++)
-        peak = fmax(peak, motor->thrust.data[2 * i + 1]);
-    return peak * motor->thrust_scale;
-}
-
-double plausible_impulse(const ld_motor *motor)
-{
-    double impulse = 0;
-    for (size_t i = 1; i < motor->thrust.rows; i++) {
-        const double *a = &motor->thrust.data[2 * (i - 1)], *b = &motor->thrust.data[2 * i];
-        impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
-    }
-    return impulse * motor->thrust_scale * motor->time_scale;
-}
-
-double plausible_burn_time(const ld_motor *motor)
-{
-    const ld_table *thrust = &motor->thrust;
-    return thrust->rows > 0 ? thrust->data[2 * (thrust->rows - 1)] * motor->time_scale : 0;
-}
-
-double plausible_peak_pressure(const ld_model *model)
-{
-    const ld_pressure *given = &model->tubes.pressure;
-    const ld_table *table =
-        given->form == LD_PRESSURE_OVER_TIME ? &given->over_time : &given->over_travel;
-    const double pi = 3.14159265358979323846;
-    double bore = plausible_bore(model), peak = 0;
-    if (!model_has_pressure(model))
-        return 0;
-    for (size_t i = 0; i < table->rows; i++)
-        peak = fmax(peak, table->data[2 * i + 1]);
-    if (given->form == LD_PRESSURE_OF_GAS)
-        peak = given->pressure;
-    return fmax(0, given->scale * peak - given->ambient) * pi * bore * bore;
-}
-
-double plausible_peak_drive(const ld_model *model)
-{
-    return plausible_peak_thrust(&model->rocket.motor) + plausible_peak_pressure(model);
-}
-
-// The number with that path; NaN where the scenario has none.
-static double number_at(const ld_model *model, const char *path)
-{
-    char why[384];
-    field_place place;
-    return field_locate(model, path, &place, why, sizeof why) ? field_get(model, &place) : NAN;
-}
-
-double plausible_weight_along(const ld_model *model)
-{
-    const ld_table *command = &model->platform.elevation.stabiliser.command;
-    double lowest = number_at(model, "base.elevation");
-    for (size_t i = 0; i < command->rows && model_has_vehicle(model); i++)
-        lowest = fmin(lowest, command->data[2 * i + 1]);
-    return model->rocket.full.mass * model->gravity * sin(lowest);
-}
-
-double plausible_time_in_tube(const ld_model *model)
-{
-    double weight = plausible_weight_along(model);
-    double force = plausible_peak_drive(model) - (isnan(weight) ? 0 : weight);
-    double way = model->tubes.length - model->rocket.start_at;
-    return force > 0 ? sqrt(2 * way * model->rocket.full.mass / force) : NAN;
-}
-
-double plausible_front(const ld_model *model)
-{
-    double front = NAN;
-    for (int i = 0; i < model->rocket.adaptor_count && model_has_launcher(model); i++)
-        front = fmax(front, model->rocket.adaptor[i].at);
-    return front;
-}
 
 // ---- the walk
 
@@ -153,10 +54,10 @@ static plausible_pair find_pair(const plausible_rule *rule, const plausible_entr
     put_entry(path, rule->path, whole ? "#" : entry);
     if (rule->find)
         return is_there(at->model, path) ? rule->find(at) : plausible_nothing();
-    plausible_pair pair = plausible_alone(number_at(at->model, path));
+    plausible_pair pair = plausible_alone(field_number(at->model, path));
     if (rule->other) {
         put_entry(path, rule->other, entry);
-        pair.other = number_at(at->model, path);
+        pair.other = field_number(at->model, path);
     }
     return pair;
 }

@@ -77,28 +77,4 @@ static inline double plausible_norm(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-// Radius of the bore at the rear end [m]; NaN on surfaces and in a flight alone.
-double plausible_bore(const ld_model *model);
-// Mass of a tube with its point masses and tail [kg].
-double plausible_tube_mass(const ld_tubes *tubes);
-// Greatest thrust [N], integral of the thrust [N s] and its end [s], with their scales; 0 without.
-double plausible_peak_thrust(const ld_motor *motor);
-double plausible_impulse(const ld_motor *motor);
-double plausible_burn_time(const ld_motor *motor);
-// Greatest force of the pressure behind the rocket, and with the greatest thrust [N]; 0 without.
-double plausible_peak_pressure(const ld_model *model);
-double plausible_peak_drive(const ld_model *model);
-// Weight of the full rocket along the tube, backwards [N], where the tube is lowest; NaN where its
-// elevation is not known.
-double plausible_weight_along(const ld_model *model);
-// Time [s] that the rocket at least needs to leave the tube by its greatest drive; NaN: it cannot.
-double plausible_time_in_tube(const ld_model *model);
-// x of the foremost adaptor [m]; NaN in a flight alone.
-double plausible_front(const ld_model *model);
-// Moment of inertia [kg m2] of tubes and rockets about the elevation hinge, of rods of the tubes'
-// length about their middles.
-double plausible_tubes_inertia(const ld_model *model);
-// Heave frequency [Hz] of a vehicle on its suspensions.
-double plausible_heave_frequency(const ld_model *model);
-
 #endif

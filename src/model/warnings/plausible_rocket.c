@@ -1,5 +1,6 @@
 // Plausibility of the rocket, its motor and its aerodynamics.
 #include "math/functions.h"
+#include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -14,12 +15,12 @@ static double gyration(double inertia, const ld_mass_data *data)
 
 FIND(center)
 {
-    return plausible_compare(at->model->rocket.full.center[0], plausible_front(at->model));
+    return plausible_compare(at->model->rocket.full.center[0], estimate_front(at->model));
 }
 
 FIND(empty_center)
 {
-    return plausible_compare(at->model->rocket.empty.center[0], plausible_front(at->model));
+    return plausible_compare(at->model->rocket.empty.center[0], estimate_front(at->model));
 }
 
 FIND(off_axis)
@@ -27,7 +28,7 @@ FIND(off_axis)
     const ld_rocket *rocket = &at->model->rocket;
     double y = rocket->full.center[1] + rocket->eccentricity[0];
     double z = rocket->full.center[2] + rocket->eccentricity[1];
-    return plausible_compare(hypot(y, z), plausible_bore(at->model));
+    return plausible_compare(hypot(y, z), estimate_bore(at->model));
 }
 
 FIND(imbalance)
@@ -39,20 +40,20 @@ FIND(imbalance)
 FIND(roll_gyration)
 {
     const ld_mass_data *full = &at->model->rocket.full;
-    return plausible_compare(gyration(full->inertia[0], full), plausible_bore(at->model));
+    return plausible_compare(gyration(full->inertia[0], full), estimate_bore(at->model));
 }
 
 FIND(empty_roll_gyration)
 {
     const ld_mass_data *empty = &at->model->rocket.empty;
-    return plausible_compare(gyration(empty->inertia[0], empty), plausible_bore(at->model));
+    return plausible_compare(gyration(empty->inertia[0], empty), estimate_bore(at->model));
 }
 
 // Place of the foremost adaptor [m] where it tells how long the rocket is: in a bore. Buttons on a
 // rail may stand close.
 static double length_told(const ld_model *model)
 {
-    return model_has_surfaces(model) ? NAN : plausible_front(model);
+    return model_has_surfaces(model) ? NAN : estimate_front(model);
 }
 
 FIND(pitch_gyration)
@@ -78,12 +79,12 @@ FIND(propellant)
 
 FIND(guidance)
 {
-    return plausible_compare(plausible_front(at->model), plausible_bore(at->model));
+    return plausible_compare(estimate_front(at->model), estimate_bore(at->model));
 }
 
 FIND(clearance)
 {
-    return plausible_compare(at->model->rocket.adaptor[at->i].clearance, plausible_bore(at->model));
+    return plausible_compare(at->model->rocket.adaptor[at->i].clearance, estimate_bore(at->model));
 }
 
 FIND(contact_frequency)
@@ -96,7 +97,7 @@ FIND(release_force)
 {
     const ld_rocket *rocket = &at->model->rocket;
     return plausible_compare(model_has_pressure(at->model) ? NAN : rocket->lock.release_force,
-                             plausible_peak_thrust(&rocket->motor));
+                             estimate_peak_thrust(&rocket->motor));
 }
 
 FIND(hold_down)
@@ -104,31 +105,31 @@ FIND(hold_down)
     const ld_rocket *rocket = &at->model->rocket;
     bool by_motor = rocket->lock.hold_down > 0 && !model_has_pressure(at->model);
     return plausible_compare(by_motor ? rocket->lock.hold_down : NAN,
-                             plausible_burn_time(&rocket->motor));
+                             estimate_burn_time(&rocket->motor));
 }
 
 FIND(release_by_pressure)
 {
     const ld_model *model = at->model;
     return plausible_compare(model_has_pressure(model) ? model->rocket.lock.release_force : NAN,
-                             plausible_peak_drive(model));
+                             estimate_peak_drive(model));
 }
 
 // In a tube that points down the lock carries the weight.
 FIND(release_by_weight)
 {
-    double forwards = -plausible_weight_along(at->model);
+    double forwards = -estimate_weight_along(at->model);
     return plausible_compare(at->model->rocket.lock.release_force, forwards > 0 ? forwards : NAN);
 }
 
 FIND(lock_along)
 {
-    return plausible_compare(at->model->rocket.lock.x, plausible_front(at->model));
+    return plausible_compare(at->model->rocket.lock.x, estimate_front(at->model));
 }
 
 FIND(lock_across)
 {
-    return plausible_compare(at->model->rocket.lock.radius, plausible_bore(at->model));
+    return plausible_compare(at->model->rocket.lock.radius, estimate_bore(at->model));
 }
 
 // ---- motor
@@ -153,7 +154,7 @@ FIND(thrust_at_end)
     const ld_motor *motor = &at->model->rocket.motor;
     size_t rows = motor->thrust.rows;
     double last = motor->thrust.data[2 * rows - 1] * motor->thrust_scale;
-    plausible_pair pair = plausible_compare(last, plausible_peak_thrust(motor));
+    plausible_pair pair = plausible_compare(last, estimate_peak_thrust(motor));
     pair.row = (int)rows;
     return pair;
 }
@@ -174,14 +175,14 @@ FIND(negative_thrust)
 FIND(thrust_by_weight)
 {
     const ld_model *model = at->model;
-    double weight = model_has_launcher(model) ? plausible_weight_along(model) : NAN;
-    return plausible_compare(plausible_peak_drive(model), weight > 0 ? weight : NAN);
+    double weight = model_has_launcher(model) ? estimate_weight_along(model) : NAN;
+    return plausible_compare(estimate_peak_drive(model), weight > 0 ? weight : NAN);
 }
 
 FIND(acceleration)
 {
     const ld_rocket *rocket = &at->model->rocket;
-    return plausible_alone(plausible_peak_thrust(&rocket->motor) / rocket->full.mass);
+    return plausible_alone(estimate_peak_thrust(&rocket->motor) / rocket->full.mass);
 }
 
 // At which the empty rocket falls below it near sea level.
@@ -198,13 +199,13 @@ FIND(opening_time)
     const ld_parachute *one = &rocket->parachute[at->i];
     bool burns = one->trigger == LD_TRIGGER_TIME && !rocket->motor.absent;
     return plausible_compare(burns ? one->time + one->lag : NAN,
-                             plausible_burn_time(&rocket->motor));
+                             estimate_burn_time(&rocket->motor));
 }
 
 FIND(exhaust_speed)
 {
     const ld_rocket *rocket = &at->model->rocket;
-    double speed = plausible_impulse(&rocket->motor) / rocket->propellant;
+    double speed = estimate_impulse(&rocket->motor) / rocket->propellant;
     return plausible_alone(rocket->propellant > 0 ? speed : NAN);
 }
 
@@ -216,7 +217,7 @@ FIND(nozzle_along)
 FIND(nozzle_across)
 {
     const double *r = at->model->rocket.motor.at;
-    return plausible_compare(hypot(r[1], r[2]), plausible_bore(at->model));
+    return plausible_compare(hypot(r[1], r[2]), estimate_bore(at->model));
 }
 
 // ---- aerodynamics
@@ -224,24 +225,24 @@ FIND(nozzle_across)
 FIND(diameter)
 {
     return plausible_compare(at->model->rocket.aerodynamics.reference_diameter,
-                             2 * plausible_bore(at->model));
+                             2 * estimate_bore(at->model));
 }
 
 FIND(emerged_diameter)
 {
     return plausible_compare(at->model->rocket.aerodynamics.emerged.diameter,
-                             2 * plausible_bore(at->model));
+                             2 * estimate_bore(at->model));
 }
 
 FIND(nose)
 {
     return plausible_compare(at->model->rocket.aerodynamics.emerged.nose,
-                             plausible_front(at->model));
+                             estimate_front(at->model));
 }
 
 FIND(area)
 {
-    double bore = plausible_bore(at->model), area = at->model->rocket.aerodynamics.area;
+    double bore = estimate_bore(at->model), area = at->model->rocket.aerodynamics.area;
     return plausible_compare(area > 0 ? area : NAN, PI * bore * bore);
 }
 
@@ -284,7 +285,7 @@ FIND(last_mach)
     const ld_aerodynamics *air = &rocket->aerodynamics;
     const double sound = 340;
     double mean = rocket->full.mass - rocket->propellant / 2;
-    double gain = rocket->motor.absent ? 0 : plausible_impulse(&rocket->motor) / mean;
+    double gain = rocket->motor.absent ? 0 : estimate_impulse(&rocket->motor) / mean;
     bool ends = air->beyond_table == LD_BEYOND_ERROR && model_has_launcher(at->model);
     return plausible_compare(greatest(&air->table, 0), ends ? gain / sound : NAN);
 }

@@ -1,6 +1,7 @@
 // Plausibility of the environment, flights, runs and studies.
 #include "math/functions.h"
 #include "model/moist_air.h"
+#include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -120,7 +121,7 @@ FIND(flight_limit)
     const ld_model *model = at->model;
     bool flies = model->run.end != LD_END_TIP && !model->rocket.motor.absent;
     return plausible_compare(flies ? model->run.flight_limit : NAN,
-                             plausible_burn_time(&model->rocket.motor));
+                             estimate_burn_time(&model->rocket.motor));
 }
 
 FIND(flight_step)
@@ -144,7 +145,7 @@ FIND(lead_in)
     bool shaken =
         model_has_vehicle(model) && vehicle->speed > 0 && vehicle->road.form == LD_ROAD_SUM;
     return plausible_compare(shaken ? model->run.lead_in : NAN,
-                             1 / plausible_heave_frequency(model));
+                             1 / estimate_heave_frequency(model));
 }
 
 FIND(lead_in_step)
@@ -157,19 +158,19 @@ FIND(lead_in_step)
 FIND(tube_step)
 {
     return plausible_compare(of_launch(at->model, at->model->run.output_step_tube),
-                             plausible_time_in_tube(at->model));
+                             estimate_time_in_tube(at->model));
 }
 
 FIND(max_step)
 {
     return plausible_compare(of_launch(at->model, at->model->run.max_step),
-                             plausible_time_in_tube(at->model));
+                             estimate_time_in_tube(at->model));
 }
 
 FIND(stuck_time)
 {
     return plausible_compare(of_launch(at->model, at->model->run.stuck_time),
-                             plausible_time_in_tube(at->model));
+                             estimate_time_in_tube(at->model));
 }
 
 // Rows of the histories until the last ignition, and of the flights where there are such.
@@ -190,12 +191,12 @@ FIND(interval)
     const ld_model *model = at->model;
     const ld_firing *firing = &model->firing[at->i];
     return plausible_compare(at->i > 0 ? firing->at - firing[-1].at : NAN,
-                             plausible_time_in_tube(model));
+                             estimate_time_in_tube(model));
 }
 
 FIND(order_interval)
 {
-    return plausible_compare(at->model->firing_order.interval, plausible_time_in_tube(at->model));
+    return plausible_compare(at->model->firing_order.interval, estimate_time_in_tube(at->model));
 }
 
 // ---- studies

@@ -1,4 +1,5 @@
 // Plausibility of the stabilisers' options.
+#include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -22,7 +23,7 @@ static hinge_loop loop_of(const plausible_entry *at, const ld_turret *turret)
                        .kp = two->present ? two->rate_kp * two->kp + two->rate_ki : given->kp,
                        .kd = two->present ? two->rate_kp : given->kd};
     loop.inertia = turret->inertia[turret == &platform->azimuth ? 1 : 2];
-    loop.inertia += plausible_tubes_inertia(at->model);
+    loop.inertia += estimate_tubes_inertia(at->model);
     loop.max_step = at->model->run.max_step;
     if (turret->lock.present)
         loop.kp = loop.kd = loop.inertia = loop.max_step = NAN;

@@ -1,6 +1,7 @@
 // Plausibility of tubes and their supports.
 #include "math/functions.h"
 #include "model/guide.h"
+#include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -74,7 +75,7 @@ FIND(wave_speed)
 
 FIND(slenderness)
 {
-    return plausible_compare(at->model->tubes.length, plausible_bore(at->model));
+    return plausible_compare(at->model->tubes.length, estimate_bore(at->model));
 }
 
 // Frequency of the highest bending mode, about that of a clamped tube, beside that of steps.
@@ -92,14 +93,14 @@ FIND(highest_mode)
 FIND(tail_mass)
 {
     const ld_tubes *tubes = &at->model->tubes;
-    return plausible_compare(tubes->tail.mass, plausible_tube_mass(tubes) - tubes->tail.mass);
+    return plausible_compare(tubes->tail.mass, estimate_tube_mass(tubes) - tubes->tail.mass);
 }
 
 FIND(point_mass)
 {
     const ld_tubes *tubes = &at->model->tubes;
     double mass = tubes->point_mass[at->i].mass;
-    return plausible_compare(mass, plausible_tube_mass(tubes) - mass);
+    return plausible_compare(mass, estimate_tube_mass(tubes) - mass);
 }
 
 FIND(support_frequency)
@@ -110,7 +111,7 @@ FIND(support_frequency)
         stiffness += support_clamps(&tubes->support[i], LD_CLAMP_Y)
                          ? NAN
                          : support_spring(&tubes->support[i], LD_CLAMP_Y);
-    double mass = plausible_tube_mass(tubes) + at->model->rocket.full.mass;
+    double mass = estimate_tube_mass(tubes) + at->model->rocket.full.mass;
     return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
 }
 
@@ -125,7 +126,7 @@ FIND(support_time)
             damping += tubes->support[i].damping[axis];
         greatest = fmax(greatest, damping);
     }
-    return plausible_compare(greatest > 0 ? plausible_tube_mass(tubes) / greatest : NAN,
+    return plausible_compare(greatest > 0 ? estimate_tube_mass(tubes) / greatest : NAN,
                              at->model->run.max_step);
 }
 
@@ -134,7 +135,7 @@ FIND(support_time)
 FIND(support_turning_time)
 {
     const ld_tubes *tubes = &at->model->tubes;
-    double inertia = plausible_tube_mass(tubes) * tubes->length * tubes->length / 12, damping[2];
+    double inertia = estimate_tube_mass(tubes) * tubes->length * tubes->length / 12, damping[2];
     for (int axis = 0; axis < 2; axis++) {
         damping[axis] = 0;
         for (int i = 0; i < tubes->support_count; i++)
@@ -148,7 +149,7 @@ FIND(support_turning_time)
 FIND(recoil_time)
 {
     const ld_recoil *recoil = &at->model->tubes.support[at->i].recoil;
-    double mass = plausible_tube_mass(&at->model->tubes);
+    double mass = estimate_tube_mass(&at->model->tubes);
     return plausible_compare(recoil->present && recoil->damping > 0 ? mass / recoil->damping : NAN,
                              at->model->run.max_step);
 }
@@ -205,8 +206,8 @@ FIND(preload)
 {
     const ld_model *model = at->model;
     const ld_tubes *tubes = &model->tubes;
-    double mass = plausible_tube_mass(tubes) + model->rocket.full.mass, preload = 0;
-    double weight = plausible_weight_along(model) / model->rocket.full.mass * mass;
+    double mass = estimate_tube_mass(tubes) + model->rocket.full.mass, preload = 0;
+    double weight = estimate_weight_along(model) / model->rocket.full.mass * mass;
     for (int i = 0; i < tubes->support_count; i++)
         preload += tubes->support[i].recoil.present ? tubes->support[i].recoil.preload : 0;
     return plausible_compare(preload, weight > 0 ? weight : NAN);
@@ -215,22 +216,22 @@ FIND(preload)
 // The greatest force on a rocket without motor beside the weight that holds it back.
 FIND(pressure_by_weight)
 {
-    double weight = plausible_weight_along(at->model);
-    double force = at->model->rocket.motor.absent ? plausible_peak_pressure(at->model) : NAN;
+    double weight = estimate_weight_along(at->model);
+    double force = at->model->rocket.motor.absent ? estimate_peak_pressure(at->model) : NAN;
     return plausible_compare(force, weight > 0 ? weight : NAN);
 }
 
 FIND(greatest_pressure)
 {
-    double bore = plausible_bore(at->model);
-    return plausible_alone(plausible_peak_pressure(at->model) / (PI * bore * bore));
+    double bore = estimate_bore(at->model);
+    return plausible_alone(estimate_peak_pressure(at->model) / (PI * bore * bore));
 }
 
 // Reservoir beside what the rocket leaves behind it in the bore.
 FIND(gas_volume)
 {
     const ld_tubes *tubes = &at->model->tubes;
-    double bore = plausible_bore(at->model), way = tubes->length - at->model->rocket.start_at;
+    double bore = estimate_bore(at->model), way = tubes->length - at->model->rocket.start_at;
     return plausible_compare(tubes->pressure.volume, PI * bore * bore * way);
 }
 
@@ -239,7 +240,7 @@ FIND(expanded)
 {
     const ld_model *model = at->model;
     const ld_pressure *gas = &model->tubes.pressure;
-    double bore = plausible_bore(model), way = model->tubes.length - model->rocket.start_at;
+    double bore = estimate_bore(model), way = model->tubes.length - model->rocket.start_at;
     double volume = gas->volume + PI * bore * bore * way;
     return plausible_compare(gas->ambient,
                              gas->scale * gas->pressure * pow(gas->volume / volume, gas->exponent));
@@ -249,7 +250,7 @@ FIND(pitch)
 {
     const ld_layout *layout = &at->model->tubes.layout;
     bool several = layout->rows * layout->columns > 1;
-    return plausible_compare(several ? layout->pitch : NAN, 2 * plausible_bore(at->model));
+    return plausible_compare(several ? layout->pitch : NAN, 2 * estimate_bore(at->model));
 }
 
 FIND(first_tube)
@@ -277,7 +278,7 @@ FIND(play)
 {
     ld_surface surface[LD_MAX_SURFACES];
     int count = guide_surfaces(&at->model->tubes.guide, surface);
-    double widest = 0, front = plausible_front(at->model);
+    double widest = 0, front = estimate_front(at->model);
     for (int k = 0; k < count; k++)
         widest = fmax(widest, surface[k].gap);
     return plausible_alone(count > 0 ? 2 * widest / front : NAN);
@@ -294,7 +295,7 @@ FIND(shoe_clearance)
 
 FIND(slot_radius)
 {
-    return plausible_compare(at->model->tubes.slot.radius, plausible_bore(at->model));
+    return plausible_compare(at->model->tubes.slot.radius, estimate_bore(at->model));
 }
 
 FIND(slot_angle)

@@ -1,5 +1,6 @@
 // Plausibility of a vehicle: wheels, road, chassis and platforms.
 #include "math/functions.h"
+#include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 
 #define PI 3.14159265358979323846
@@ -8,29 +9,6 @@
 static const ld_vehicle *vehicle_of(const plausible_entry *at)
 {
     return &at->model->base.vehicle;
-}
-
-// Mass of platforms, tubes and rockets [kg].
-static double carried_mass(const ld_model *model)
-{
-    const ld_tubes *tubes = &model->tubes;
-    int count = tubes->layout.rows * tubes->layout.columns;
-    return model->platform.azimuth.mass + model->platform.elevation.mass +
-           count * plausible_tube_mass(tubes) +
-           (count - tubes->empty_count) * model->rocket.full.mass;
-}
-
-// Mass on the suspensions [kg].
-static double sprung_mass(const ld_model *model)
-{
-    return model->platform.chassis_mass + carried_mass(model);
-}
-
-double plausible_heave_frequency(const ld_model *model)
-{
-    const ld_vehicle *vehicle = &model->base.vehicle;
-    double stiffness = vehicle->wheel_count * vehicle->suspension.stiffness[1];
-    return sqrt(stiffness / sprung_mass(model)) / (2 * PI);
 }
 
 // From the least to the greatest coordinate of the wheels along an axis [m].
@@ -66,8 +44,9 @@ FIND(wheel_distance)
 FIND(tyre_deflection)
 {
     const ld_vehicle *vehicle = vehicle_of(at);
-    double load = (sprung_mass(at->model) / vehicle->wheel_count + vehicle->wheel[0].mass) *
-                  at->model->gravity;
+    double load =
+        (estimate_sprung_mass(at->model) / vehicle->wheel_count + vehicle->wheel[0].mass) *
+        at->model->gravity;
     return plausible_compare(load / vehicle->tyre.stiffness[1], vehicle->tyre.radius);
 }
 
@@ -80,13 +59,13 @@ FIND(hop_frequency)
 
 FIND(heave_frequency)
 {
-    return plausible_alone(plausible_heave_frequency(at->model));
+    return plausible_alone(estimate_heave_frequency(at->model));
 }
 
 FIND(heave_damping)
 {
     const ld_vehicle *vehicle = vehicle_of(at);
-    double mass = sprung_mass(at->model) / vehicle->wheel_count;
+    double mass = estimate_sprung_mass(at->model) / vehicle->wheel_count;
     double critical = 2 * sqrt(vehicle->suspension.stiffness[1] * mass);
     return plausible_alone(vehicle->suspension.damping[1] / critical);
 }
@@ -94,7 +73,7 @@ FIND(heave_damping)
 FIND(stop_by_sag)
 {
     const ld_vehicle *vehicle = vehicle_of(at);
-    double load = sprung_mass(at->model) / vehicle->wheel_count * at->model->gravity;
+    double load = estimate_sprung_mass(at->model) / vehicle->wheel_count * at->model->gravity;
     return plausible_compare(vehicle->suspension.bump_stop.compression,
                              load / vehicle->suspension.stiffness[1]);
 }
@@ -102,7 +81,7 @@ FIND(stop_by_sag)
 FIND(drive_time)
 {
     const ld_vehicle *vehicle = vehicle_of(at);
-    double time = sprung_mass(at->model) / vehicle->drive.kp;
+    double time = estimate_sprung_mass(at->model) / vehicle->drive.kp;
     return plausible_alone(vehicle->speed > 0 ? time : NAN);
 }
 
@@ -110,7 +89,7 @@ FIND(drive_time)
 
 FIND(chassis_mass)
 {
-    return plausible_compare(at->model->platform.chassis_mass, carried_mass(at->model));
+    return plausible_compare(at->model->platform.chassis_mass, estimate_carried_mass(at->model));
 }
 
 FIND(chassis_roll)
@@ -155,7 +134,7 @@ FIND(jet_force)
     for (size_t i = 0; i < jet->rows; i++)
         most = fmax(most, jet->data[2 * i + 1]);
     return plausible_compare(most * platform->jet_scale,
-                             plausible_peak_thrust(&at->model->rocket.motor));
+                             estimate_peak_thrust(&at->model->rocket.motor));
 }
 
 FIND(jet_reach)
@@ -173,19 +152,14 @@ FIND(jet_scale)
 
 // ---- platforms
 
-static double distance(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
 static plausible_pair hinge_place(const plausible_entry *at, const ld_turret *turret)
 {
-    return plausible_compare(distance(turret->hinge_at), wheel_base(vehicle_of(at), 0));
+    return plausible_compare(plausible_norm(turret->hinge_at), wheel_base(vehicle_of(at), 0));
 }
 
 static plausible_pair turret_center(const plausible_entry *at, const ld_turret *turret)
 {
-    return plausible_compare(distance(turret->center), wheel_base(vehicle_of(at), 0));
+    return plausible_compare(plausible_norm(turret->center), wheel_base(vehicle_of(at), 0));
 }
 
 static plausible_pair turret_gyration(const plausible_entry *at, const ld_turret *turret)
@@ -194,20 +168,10 @@ static plausible_pair turret_gyration(const plausible_entry *at, const ld_turret
                              wheel_base(vehicle_of(at), 0));
 }
 
-double plausible_tubes_inertia(const ld_model *model)
-{
-    const ld_tubes *tubes = &model->tubes;
-    int count = tubes->layout.rows * tubes->layout.columns;
-    double mass =
-        count * plausible_tube_mass(tubes) + (count - tubes->empty_count) * model->rocket.full.mass;
-    double arm = tubes->layout.first[0] + tubes->length / 2;
-    return mass * (tubes->length * tubes->length / 12 + arm * arm);
-}
-
 // Frequency of a hinge with what it carries on a spring.
 static plausible_pair hinge_frequency(const plausible_entry *at, double stiffness, double inertia)
 {
-    return plausible_alone(sqrt(stiffness / (inertia + plausible_tubes_inertia(at->model))) /
+    return plausible_alone(sqrt(stiffness / (inertia + estimate_tubes_inertia(at->model))) /
                            (2 * PI));
 }
 
@@ -216,7 +180,7 @@ static plausible_pair hinge_time(const plausible_entry *at, double damping, doub
 {
     if (!(damping > 0))
         return plausible_nothing();
-    return plausible_compare((inertia + plausible_tubes_inertia(at->model)) / damping,
+    return plausible_compare((inertia + estimate_tubes_inertia(at->model)) / damping,
                              at->model->run.max_step);
 }
 

@@ -191,9 +191,6 @@ struct base_interface {
     const quantity_table *inputs;  // which of the base_inputs it has; NULL: none
 };
 
-// Those of a base that goes where it is told.
-extern const quantity_table base_motion_inputs;
-
 extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external, base_fmu;
 
 // Columns of the bases of that kind; NULL: they have none of their own.
@@ -208,13 +205,6 @@ void base_free_share(base_system *self);
 
 // First and last time [s] at which the base knows where it is.
 void base_span(const base_system *self, double *first, double *last);
-
-// Frame T of a base with these coordinates, x, y, z [m], yaw, pitch, roll [rad], their rates u and
-// accelerations a, its tube mounted so: A_base,tube.
-void base_frame_at(const double x[6], const double u[6], const double a[6], const m3 *mount,
-                   base_frame *tube);
-// The same frame with its origin elsewhere: `arm` [m] from it, in T.
-void base_frame_go(base_frame *tube, v3 arm);
 
 // Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);

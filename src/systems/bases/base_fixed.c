@@ -1,7 +1,7 @@
 // A base that stands still.
 #include <stdlib.h>
 
-#include "systems/bases/base.h"
+#include "systems/bases/base_coordinates.h"
 
 static ld_status build(base_system *self, ld_error *error)
 {

@@ -1,5 +1,5 @@
-// Files that a scenario names and that are no texts: where they lie and what they were when they
-// were read first is kept in their place.
+// Files that a scenario names, beside the text that names them: texts, which are kept, and others,
+// of which it is kept where they lie and what they were when they were read first.
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -11,6 +11,69 @@
 #include "model/fields/digest.h"
 #include "model/fields/source.h"
 #include "scenario/scenario_reader.h"
+
+// The name of a file beside others in a folder, in the pool.
+static char *beside(scenario_reader *reader, const char *folder, const char *name)
+{
+    bool alone = name[0] == '/' || !folder || !folder[0];
+    size_t length = strlen(name) + (alone ? 0 : strlen(folder)) + 2;
+    char *joined = pool_take(reader, length);
+    if (joined)
+        snprintf(joined, length, "%s%s%s", alone ? "" : folder, alone ? "" : "/", name);
+    return joined;
+}
+
+// The folder part of a file's name: "" without.
+static char *folder_of(scenario_reader *reader, const char *name)
+{
+    const char *slash = strrchr(name, '/');
+    return pool_text(reader, name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
+}
+
+// Reads a file into the source, as `within`; NULL after a message.
+static const ld_source_file *read_file(scenario_reader *reader, text_place place, const char *path,
+                                       const char *file_name, const char *within)
+{
+    char *text;
+    size_t length;
+    ld_error error;
+    if (!reader->source->folder) {
+        reader_refuse(reader, place, path, "file \"%s\" is not among the texts that are kept",
+                      within);
+        return NULL;
+    }
+    ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
+    reader->no_memory |= status == LD_ERR_MEMORY;
+    reader->no_file |= status == LD_ERR_FILE;
+    if (status != LD_OK) {
+        reader_refuse(reader, place, path, "file \"%s\" %s", file_name, error.text);
+        return NULL;
+    }
+    const ld_source_file *file = source_add(reader->source, within, text, length);
+    reader->no_memory |= !file;
+    return file;
+}
+
+text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
+                         const char *name)
+{
+    char *file_name = beside(reader, place.source->folder, name);
+    char *within = beside(reader, place.source->within, name);
+    if (!file_name || !within)
+        return NULL;
+    const ld_source_file *file = source_find(reader->source, within);
+    if (!file)
+        file = read_file(reader, place, path, file_name, within);
+    text_source *opened = file ? pool_take(reader, sizeof *opened) : NULL;
+    if (opened)
+        *opened = (text_source){file_name,
+                                file->text,
+                                file->length,
+                                folder_of(reader, file_name),
+                                1,
+                                folder_of(reader, within)};
+    return reader->no_memory ? NULL : opened;
+}
 
 // "FNV-1a DIGEST of SIZE bytes", in the pool.
 static const char *digest_text(scenario_reader *reader, uint64_t digest, size_t size)
@@ -102,8 +165,8 @@ static bool check_digest(scenario_reader *reader, text_place place, const char *
 const char *reader_keep(scenario_reader *reader, text_place place, const char *path,
                         const char *name, const char **digest)
 {
-    const char *file_name = reader_beside(reader, place.source->folder, name);
-    const char *within = reader_beside(reader, place.source->within, name);
+    const char *file_name = beside(reader, place.source->folder, name);
+    const char *within = beside(reader, place.source->within, name);
     if (!file_name || !within)
         return NULL;
     const char *now = NULL;
