@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "flight/flight_alone.h"
 #include "flight/flight_lanes.h"
 #include "scenario/scenario.h"
 #include "state/simulation.h"

@@ -7,6 +7,7 @@
 #include "bench_sample.h"
 #include "launch/launch_run.h"
 #include "scenario/scenario.h"
+#include "state/equilibrium.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
 

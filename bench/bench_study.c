@@ -9,6 +9,7 @@
 #include "bench_sample.h"
 #include "bench_scratch.h"
 #include "flight/flight_lanes.h"
+#include "launch/simulation_build.h"
 #include "launchdyn/study.h"
 #include "state/simulation.h"
 #include "studies/run/worker.h"

@@ -6,6 +6,7 @@
 
 #include "bench_sample.h"
 #include "scenario/scenario.h"
+#include "state/equilibrium.h"
 #include "state/launch_state.h"
 
 enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };

@@ -4,10 +4,10 @@
 
 #include "figures/chart.h"
 #include "figures/density_file.h"
+#include "launch/measures.h"
 #include "launchdyn/response_view.h"
 #include "math/functions.h"
 #include "model/model.h"
-#include "quantities/measures.h"
 #include "quantities/study_results.h"
 #include "results/columns.h"
 

@@ -1,11 +1,12 @@
-// A run without launcher: the state that the scenario gives, flown to its end.
+#include "flight/flight_alone.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "flight/free_flight.h"
+#include "base/cpu_time.h"
+#include "flight/flight_history.h"
 #include "quantities/summary_quantities.h"
-#include "state/simulation.h"
 
 typedef struct alone_run {
     const ld_simulation *self;
@@ -17,22 +18,18 @@ static ld_status write_row(void *user, const flight_phase *phase, double t, cons
                            ld_error *error)
 {
     alone_run *run = user;
-    double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
+    double row[FLIGHT_MAX_COLUMNS], start = cpu_time_now();
     flight_row(&run->self->flight, &run->self->columns, phase, t, state, row);
     ld_status status =
         run->sink->row(run->sink->self, row, (size_t)run->self->columns.count, error);
-    run->cpu_output += simulation_cpu_now() - start;
+    run->cpu_output += cpu_time_now() - start;
     return status;
 }
 
 ld_status flight_alone_create(ld_simulation *self, ld_error *error)
 {
     ld_status status = flight_build(&self->flight, self->model, 0, error);
-    if (!status)
-        status = flight_columns(&self->flight, &self->columns, error);
-    if (!status)
-        status = measures_build(self->model, self->measure, error);
-    return status;
+    return status ? status : flight_columns(&self->flight, &self->columns, error);
 }
 
 // The flight, and its start in `state`.
@@ -90,12 +87,12 @@ static ld_status fly(alone_run *run, const ld_run_options *options, ld_summary *
     flight_alone_prepare(self, options, &job, state, summary);
     job.row = run->sink ? write_row : NULL;
     job.self = run;
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     ld_status status = LD_OK;
     if (run->sink)
         status = run->sink->begin(run->sink->self, self->columns.column,
                                   (size_t)self->columns.count, error);
-    run->cpu_output += simulation_cpu_now() - start;
+    run->cpu_output += cpu_time_now() - start;
     if (!status)
         status = free_flight_run(&job, state, &summary->rocket[0], summary, error);
     return status;
@@ -105,14 +102,14 @@ ld_status flight_alone_run(const ld_simulation *self, const ld_run_options *opti
                            ld_summary *summary, ld_error *error)
 {
     alone_run run = {.self = self, .sink = options ? options->sink : NULL};
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     ld_status status = fly(&run, options, summary, error);
     summary->complete = status == LD_OK;
     if (status && !error->text[0])
         ld_fail(error, status, "the receiver of the rows stopped the run");
     if (status)
         memcpy(summary->stopped, error->text, sizeof summary->stopped);
-    summary->statistics.cpu_seconds = simulation_cpu_now() - start - run.cpu_output;
+    summary->statistics.cpu_seconds = cpu_time_now() - start - run.cpu_output;
     summary->statistics.cpu_seconds_setup = self->cpu_seconds_setup;
     return status;
 }

@@ -1,9 +1,9 @@
 // The history of a free flight: what is found at an instant, and the quantities that stand in it.
+#include "flight/flight_history.h"
+
 #include <math.h>
 
-#include "flight/free_flight.h"
-#include "quantities/launch_quantities.h"
-#include "state/simulation.h"
+#include "state/exit_figures.h"
 
 typedef struct flight_instant {
     double t;

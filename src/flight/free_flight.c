@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "flight/flight_history.h"
 #include "integration/step_limit.h"
 #include "math/functions.h"
 #include "state/simulation.h"
@@ -559,16 +560,15 @@ static void open_parachute(flight_run *run, int i, double t, double *y)
     if (system->has_ground)
         opened->height -= system->ground;
     if (run->phase.burning && !run->phase.hangs)
-        simulation_note(run->summary,
-                        "parachute %s opened at t = %.4f s while the motor was burning: its thrust "
-                        "counts no more",
-                        one->name, t);
+        summary_note(run->summary,
+                     "parachute %s opened at t = %.4f s while the motor was burning: its thrust "
+                     "counts no more",
+                     one->name, t);
     if (run->phase.hangs && one->drag_area < run->area)
-        simulation_note(
-            run->summary,
-            "parachute %s, of %.4g m2, opened at t = %.4f s in the place of one of %.4g "
-            "m2: it brakes less",
-            one->name, one->drag_area, t, run->area);
+        summary_note(run->summary,
+                     "parachute %s, of %.4g m2, opened at t = %.4f s in the place of one of %.4g "
+                     "m2: it brakes less",
+                     one->name, one->drag_area, t, run->area);
     bool at_once = one->filling == 0 || one->drag_area == before;
     flight_hang(system, &run->phase, t, one->drag_area,
                 at_once ? 0 : (one->drag_area - before) / one->filling);
@@ -612,8 +612,8 @@ static void note_closed(flight_run *run)
 {
     for (int i = 0; i < parachutes_of(run); i++)
         if (!run->opened[i])
-            simulation_note(run->summary, "parachute %s did not open before the rocket landed",
-                            run->job->system->rocket->parachute[i].name);
+            summary_note(run->summary, "parachute %s did not open before the rocket landed",
+                         run->job->system->rocket->parachute[i].name);
 }
 
 // ---- the loop ----
@@ -789,20 +789,19 @@ static void note(flight_run *run)
     const double degree = acos(0) / 90;
     if (!isnan(run->t_beyond) &&
         run->job->system->rocket->aerodynamics.beyond_table == LD_BEYOND_HOLD)
-        simulation_note(run->summary,
-                        "beyond the aerodynamic table (Mach %.4g) from t = %.4f s on, up to Mach "
-                        "%.4g: its last values were held",
-                        run->job->system->aerodynamics.last_mach, run->t_beyond,
-                        run->extremes.mach);
+        summary_note(run->summary,
+                     "beyond the aerodynamic table (Mach %.4g) from t = %.4f s on, up to Mach "
+                     "%.4g: its last values were held",
+                     run->job->system->aerodynamics.last_mach, run->t_beyond, run->extremes.mach);
     if (!isnan(run->t_tumbling))
-        simulation_note(run->summary,
-                        "the rocket flies backwards or tumbles: its angle of attack passed 90 deg "
-                        "at t = %.4f s and reached %.1f deg",
-                        run->t_tumbling, run->rocket->flight.max_angle_of_attack / degree);
+        summary_note(run->summary,
+                     "the rocket flies backwards or tumbles: its angle of attack passed 90 deg "
+                     "at t = %.4f s and reached %.1f deg",
+                     run->t_tumbling, run->rocket->flight.max_angle_of_attack / degree);
     if (run->landed && run->phase.burning)
-        simulation_note(run->summary,
-                        "the rocket hit the ground at t = %.4f s while its motor was burning",
-                        run->steps.step.t);
+        summary_note(run->summary,
+                     "the rocket hit the ground at t = %.4f s while its motor was burning",
+                     run->steps.step.t);
     if (run->landed)
         note_closed(run);
 }
@@ -824,11 +823,11 @@ static void note_unstable(flight_run *run, const double *state, const flight_flo
     double across = sqrt(mass.J.a[1][1] * mass.J.a[2][2]);
     double factor = pow(mass.J.a[0][0] * state[FLIGHT_W], 2) / (4 * across * slope);
     if (factor < 1)
-        simulation_note(run->summary,
-                        "the rocket is unstable at t = %.4f s: its stability margin is %.2f "
-                        "calibres, and its spin does not keep it straight (gyroscopic factor "
-                        "%.3g, where more than 1 is needed)",
-                        t, margin, factor);
+        summary_note(run->summary,
+                     "the rocket is unstable at t = %.4f s: its stability margin is %.2f "
+                     "calibres, and its spin does not keep it straight (gyroscopic factor "
+                     "%.3g, where more than 1 is needed)",
+                     t, margin, factor);
 }
 
 ld_status flight_run_begin(flight_run *run, const free_flight *job, const double *state,

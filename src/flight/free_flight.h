@@ -3,8 +3,8 @@
 #define LD_SIMULATION_FREE_FLIGHT_H
 
 #include "integration/dormand_prince.h"
-#include "quantities/measures.h"
 #include "quantities/measuring.h"
+#include "quantities/quantity_table.h"
 #include "quantities/summary.h"
 #include "systems/flight/flight.h"
 
@@ -35,13 +35,6 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
 
 // The phase in which a flight begins at t.
 flight_phase free_flight_phase(const flight_system *system, double t_ignition, double t);
-
-// History of a flight: columns, to be freed, and the values of a row.
-enum { FLIGHT_MAX_COLUMNS = 64 };
-ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error);
-void flight_row(const flight_system *system, const quantity_columns *columns,
-                const flight_phase *phase, double t, const double *state,
-                double row[FLIGHT_MAX_COLUMNS]);
 
 // ---- step by step, alone or beside others
 

@@ -4,6 +4,7 @@
 
 #include "launch/launch_run.h"
 #include "quantities/summary_quantities.h"
+#include "state/equilibrium.h"
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
 static void set_up_rocket(ld_run *run, int i, double t)
@@ -71,18 +72,6 @@ static void forget_start(ld_summary *summary)
     ld_rocket_summary *rocket = &summary->rocket[0];
     no_numbers(rocket->max_contact_force, LD_MAX_ADAPTORS);
     rocket->max_slot_force = rocket->energy_dropped = NAN;
-}
-
-bool launch_is_finished(const ld_run *run)
-{
-    const launch_state *self = &run->launch;
-    if (run->ahead)
-        return false;
-    if (self->current + 1 < self->model->firing_count)
-        return false;
-    if (self->model->run.end == LD_END_TIME)
-        return propagator_time(run->propagator) >= run->t_end;
-    return self->phase.passed[0];
 }
 
 // Once a rocket is out, the next tube is put in its place; the balance goes on without what that
@@ -230,21 +219,6 @@ ld_status launch_stand(ld_run *run)
     run->t_input = t;
     launch_advance(run, t, false);
     run->t_input = INFINITY;
-    return run->status;
-}
-
-ld_status launch_ignite(ld_run *run)
-{
-    double t = propagator_time(run->propagator);
-    const double *y = propagator_state(run->propagator);
-    launch_record_ignition(run, t, y);
-    run->status = launch_write_row(run, t, y);
-    launch_pass_stop(run, t);
-    launch_restart_output(run, t);
-    launch_let_go_at_once(run, t, y);
-    launch_measure_instant(run, t, y);
-    if (!run->status)
-        run->status = propagator_start(run->propagator, t, y, false, &run->error);
     return run->status;
 }
 

@@ -34,7 +34,7 @@ ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_er
     return LD_OK;
 }
 
-static ld_status nobody_tells(const base_system *base, ld_error *error)
+ld_status launch_base_listens(const base_system *base, ld_error *error)
 {
     if (base->kind->tell)
         return LD_OK;
@@ -47,40 +47,8 @@ ld_status launch_begin_base(ld_run *run)
     if (!run->options.base)
         return LD_OK;
     run->launch.told = &run->told;
-    ld_status status = nobody_tells(&run->launch.launcher.base, &run->error);
+    ld_status status = launch_base_listens(&run->launch.launcher.base, &run->error);
     return status ? status : launch_read_frame(run->options.base, &run->told, &run->error);
-}
-
-// What the base was told before at the present counts no more.
-static void tell_anew(ld_run *run, const base_frame *now, double *state)
-{
-    const base_system *base = &run->launch.launcher.base;
-    size_t size = (size_t)base->state_count * sizeof *state;
-    if (run->told_at == run->t)
-        memcpy(state, run->before_told, size);
-    else
-        memcpy(run->before_told, state, size);
-    run->told_at = run->t;
-    base->kind->tell(base, run->t, false, now, state);
-}
-
-ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error)
-{
-    const launcher_system *launcher = &run->launch.launcher;
-    double y[LD_MAX_STATES];
-    base_frame now;
-    ld_status status = nobody_tells(&launcher->base, error);
-    if (!status)
-        status = launch_read_frame(given, &now, error);
-    if (status || launch_stand(run))
-        return status;
-    memcpy(y, propagator_state(run->propagator), (size_t)launcher->state_count * sizeof *y);
-    tell_anew(run, &now, y + launcher->base_at);
-    memset(run->launch.phase.pushing, 0, sizeof run->launch.phase.pushing); // the tube is elsewhere
-    launch_let_go_at_once(run, run->t, y);
-    launch_measure_instant(run, run->t, y);
-    run->status = propagator_start(run->propagator, run->t, y, false, &run->error);
-    return LD_OK;
 }
 
 double launch_next_sample(const ld_run *run, double t)

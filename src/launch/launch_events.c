@@ -1,16 +1,8 @@
 // What happens at events and stops of a launch: the lock lets go, adaptors pass the tip, ignition,
 // corners.
-#include <assert.h>
 #include <math.h>
 
 #include "launch/launch_run.h"
-
-void launch_tell(ld_run *run, ld_event_kind kind, double t, int part)
-{
-    assert(run->event_count < MOST_EVENTS);
-    run->event[run->event_count++] =
-        (ld_event){.kind = kind, .t = t, .rocket = run->launch.current + 1, .part = part + 1};
-}
 
 static void pass_adaptor(ld_run *run, int i, double t, const double *y)
 {

@@ -14,6 +14,8 @@
 #include "launch/launch_run.h"
 #include "math/functions.h"
 #include "math/matrices/dense.h"
+#include "state/exit_figures.h"
+#include "state/linearise.h"
 
 // Estimated errors are those of the lower order; those that kinks leave, which come and go between
 // two of its stages, are larger. So many times e are told: of 400 random launches 97 % are then
@@ -240,9 +242,9 @@ void exit_error_note(ld_run *run)
         if (run->summary.rocket[i].exit_error.relative > worst->exit_error.relative)
             worst = &run->summary.rocket[i];
     if (worst->exit_error.relative > EXIT_ERROR_NOTED)
-        simulation_note(&run->summary,
-                        "the rates at the exit of %s %d may be off by %.2g %%: errors of the "
-                        "steps grow in its guide; with a smaller run.tolerance they are smaller",
-                        model_guide_word(run->launch.model), worst->tube,
-                        100 * worst->exit_error.relative);
+        summary_note(&run->summary,
+                     "the rates at the exit of %s %d may be off by %.2g %%: errors of the "
+                     "steps grow in its guide; with a smaller run.tolerance they are smaller",
+                     model_guide_word(run->launch.model), worst->tube,
+                     100 * worst->exit_error.relative);
 }

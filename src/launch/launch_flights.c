@@ -1,6 +1,8 @@
 // The flights of the rockets that have left their tubes.
 #include <math.h>
 
+#include "base/cpu_time.h"
+#include "flight/flight_history.h"
 #include "flight/free_flight.h"
 #include "launch/launch_run.h"
 
@@ -9,23 +11,23 @@ static ld_status write_flight_row(void *user, const flight_phase *phase, double 
 {
     ld_run *run = user;
     const ld_sink *sink = run->options.sink;
-    double row[FLIGHT_MAX_COLUMNS], start = simulation_cpu_now();
+    double row[FLIGHT_MAX_COLUMNS], start = cpu_time_now();
     flight_row(&run->flight, &run->flight_columns, phase, t, state, row);
     ld_status status = sink->row(sink->self, row, (size_t)run->flight_columns.count, error);
-    run->cpu_output += simulation_cpu_now() - start;
+    run->cpu_output += cpu_time_now() - start;
     return status;
 }
 
 static ld_status begin_flight_rows(ld_run *run, int i)
 {
     const ld_sink *sink = run->options.sink;
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     quantity_columns *columns = &run->flight_columns;
     ld_status status = flight_columns(&run->flight, columns, &run->error);
     if (!status)
         status =
             sink->flight(sink->self, i + 1, columns->column, (size_t)columns->count, &run->error);
-    run->cpu_output += simulation_cpu_now() - start;
+    run->cpu_output += cpu_time_now() - start;
     return status;
 }
 
@@ -81,11 +83,10 @@ static ld_status fly(ld_run *run, int i)
     enter_flight(run, &run->flight, i, state);
     double height = flight_center(&run->flight, t, state).r.y;
     if (model->run.end == LD_END_TIME && run->flight.has_ground && height < run->flight.ground) {
-        simulation_note(
-            &run->summary,
-            "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
-            "mass centre at y = %.4g m",
-            rocket->tube, height);
+        summary_note(&run->summary,
+                     "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
+                     "mass centre at y = %.4g m",
+                     rocket->tube, height);
         return LD_OK;
     }
     free_flight job = {

@@ -1,5 +1,8 @@
 // Rows of a launch to who listens, at the output steps and the key instants.
+#include "base/cpu_time.h"
 #include "launch/launch_run.h"
+#include "state/geometry.h"
+#include "state/history.h"
 
 // From ignition on rows come at the tube's step; before it, and where a rocket has left and another
 // is to follow, at that of the lead-in.
@@ -17,12 +20,12 @@ ld_status launch_open_output(ld_run *run)
     const ld_simulation *system = run->launch.system;
     if (!sink)
         return LD_OK;
-    double before = simulation_cpu_now();
+    double before = cpu_time_now();
     ld_status status = simulation_geometry(system, sink, &run->error);
     if (!status)
         status = sink->begin(sink->self, system->columns.column, (size_t)system->columns.count,
                              &run->error);
-    run->cpu_output += simulation_cpu_now() - before;
+    run->cpu_output += cpu_time_now() - before;
     return status;
 }
 
@@ -32,11 +35,11 @@ ld_status launch_write_row(ld_run *run, double t, const double *y)
     if (!sink || t == run->last_row)
         return LD_OK;
     run->last_row = t;
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     history_row(&run->launch, t, y, run->energy_start, run->row);
     ld_status status =
         sink->row(sink->self, run->row, (size_t)run->launch.system->columns.count, &run->error);
-    run->cpu_output += simulation_cpu_now() - start;
+    run->cpu_output += cpu_time_now() - start;
     run->sink_failed = status != LD_OK;
     return status;
 }

@@ -80,6 +80,9 @@ struct ld_run {
 
 // The state at the present, in which no step need end.
 const double *run_present_state(ld_run *run);
+bool launch_is_finished(const ld_run *run);
+// Keeps what happens at t for whoever asks; `part`: adaptor or wheel, -1: of none.
+void launch_tell(ld_run *run, ld_event_kind kind, double t, int part);
 
 // Runs from a given start to the end; one that ends early says why.
 ld_status run_from(const ld_simulation *simulation, const launch_start *start, ld_summary *summary,
@@ -89,7 +92,6 @@ ld_status run_from(const ld_simulation *simulation, const launch_start *start, l
 
 // Finds the start; the run's state has begun.
 ld_status launch_begin(ld_run *run);
-bool launch_is_finished(const ld_run *run);
 // Goes on until the integrator's time has reached t, or the launch is finished, or (`to_event`)
 // something happens. The present is then t, or where that was.
 ld_status launch_advance(ld_run *run, double t, bool to_event);
@@ -98,17 +100,15 @@ ld_status launch_arrive(ld_run *run);
 ld_status launch_step_failed(ld_run *run);
 // Takes the step under way anew so that it ends at the present.
 ld_status launch_stand(ld_run *run);
-// Lights the rocket at the present, at which a step ends.
-ld_status launch_ignite(ld_run *run);
 
 // ---- a base that is told where it is (launch_base.c)
 
 // Takes what the options say of it at the start.
 ld_status launch_begin_base(ld_run *run);
+// Refuses a base that goes where its kind says.
+ld_status launch_base_listens(const base_system *base, ld_error *error);
 // The frame as it is told.
 ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_error *error);
-// At the present, of which a step then ends. Only what was told is to blame for what it returns.
-ld_status launch_tell_base(ld_run *run, const ld_base_frame *given, ld_error *error);
 // The first instant after t at which the base changes its state by itself [s]; it does so where the
 // present is one.
 double launch_next_sample(const ld_run *run, double t);
@@ -134,8 +134,6 @@ void launch_write_last_row(ld_run *run);
 
 // ---- events and stops (launch_events.c)
 
-// Keeps what happens at t for whoever asks; `part`: adaptor or wheel, -1: of none.
-void launch_tell(ld_run *run, ld_event_kind kind, double t, int part);
 // Switches what the events just located say; true where the equations changed.
 bool launch_switch_phase(ld_run *run, double t, const double *y);
 // The same of the stops of recoil slides, after each step; `at_event`: which ended at one.

@@ -1,11 +1,12 @@
 // What a launch leaves besides its rows.
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/printed.h"
 #include "launch/launch_run.h"
 #include "math/functions.h"
+#include "state/energy.h"
+#include "state/exit_figures.h"
 
 void launch_record_exit(ld_run *run, double t, const double *landed)
 {
@@ -193,30 +194,18 @@ void launch_energy_at(const launch_state *self, double t, const double *y, doubl
     simulation_energy(self, &input, &out, y, energy_start, energy);
 }
 
-void simulation_note(ld_summary *summary, const char *format, ...)
-{
-    int capacity = (int)(sizeof summary->note / sizeof summary->note[0]);
-    if (summary->note_count == capacity)
-        return;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(summary->note[summary->note_count++], sizeof summary->note[0], format, arguments);
-    va_end(arguments);
-}
-
 static void note_formulation(const launch_state *self, ld_summary *summary)
 {
     if (self->model->run.formulation != LD_FORMULATION_OVERALL)
         return;
-    simulation_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
-                    self->worst_condition);
+    summary_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
+                 self->worst_condition);
     if (self->fallbacks)
-        simulation_note(summary,
-                        "overall form: %lld of %lld evaluations fell back on the reduced form",
-                        (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
+        summary_note(summary,
+                     "overall form: %lld of %lld evaluations fell back on the reduced form",
+                     (long long)self->fallbacks, (long long)summary->statistics.rhs_evaluations);
 }
 
-// Of a launch that came to its end, the first measure that has no value.
 // [mm, mrad]
 static double printed_milli(double value)
 {
@@ -227,26 +216,27 @@ static void note_rests(ld_summary *summary)
 {
     const double *taken = summary->equilibrium.taken, *other = summary->equilibrium.other;
     if (summary->equilibrium.rests_elsewhere)
-        simulation_note(summary,
-                        "the rocket has two rests in its guide: the run begins with its rear at "
-                        "y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; the other "
-                        "is %.3f, %.3f mm, %.3f, %.3f mrad",
-                        printed_milli(taken[0]), printed_milli(taken[1]), printed_milli(taken[2]),
-                        printed_milli(taken[3]), printed_milli(other[0]), printed_milli(other[1]),
-                        printed_milli(other[2]), printed_milli(other[3]));
+        summary_note(summary,
+                     "the rocket has two rests in its guide: the run begins with its rear at "
+                     "y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; the other "
+                     "is %.3f, %.3f mm, %.3f, %.3f mrad",
+                     printed_milli(taken[0]), printed_milli(taken[1]), printed_milli(taken[2]),
+                     printed_milli(taken[3]), printed_milli(other[0]), printed_milli(other[1]),
+                     printed_milli(other[2]), printed_milli(other[3]));
 }
 
+// Of a launch that came to its end, the first measure that has no value.
 static void note_measures(ld_run *run)
 {
     const ld_model *model = run->launch.model;
     for (int i = 0; i < run->summary.rocket_count && run->summary.complete; i++)
         for (int k = 0; k < model->measure_count; k++)
             if (isnan(run->summary.rocket[i].measure[k])) {
-                simulation_note(&run->summary,
-                                "measure.%s of tube %d has no value: its window did not come, or "
-                                "%s is not there in all of it",
-                                model->measure[k].name, run->summary.rocket[i].tube,
-                                model->measure[k].of);
+                summary_note(&run->summary,
+                             "measure.%s of tube %d has no value: its window did not come, or "
+                             "%s is not there in all of it",
+                             model->measure[k].name, run->summary.rocket[i].tube,
+                             model->measure[k].of);
                 return;
             }
 }
@@ -256,11 +246,11 @@ static void note_vertical(ld_summary *summary)
 {
     for (int i = 0; i < summary->rocket_count; i++)
         if (near_vertical(summary->rocket[i].pitch)) {
-            simulation_note(summary,
-                            "the rocket of tube %d leaves near the vertical (pitch %.5g deg): yaw "
-                            "and rates of the ground frame are not meaningful; use since_ignition",
-                            summary->rocket[i].tube,
-                            summary->rocket[i].pitch * 180 / 3.14159265358979323846);
+            summary_note(summary,
+                         "the rocket of tube %d leaves near the vertical (pitch %.5g deg): yaw "
+                         "and rates of the ground frame are not meaningful; use since_ignition",
+                         summary->rocket[i].tube,
+                         summary->rocket[i].pitch * 180 / 3.14159265358979323846);
             return;
         }
 }
@@ -289,13 +279,13 @@ void launch_summarise(ld_run *run)
     note_formulation(self, summary);
     for (int i = 0; i < summary->rocket_count; i++)
         if (summary->rocket[i].t_release < 0)
-            simulation_note(summary, "the lock of tube %d let go %.4g s before its ignition",
-                            summary->rocket[i].tube, -summary->rocket[i].t_release);
+            summary_note(summary, "the lock of tube %d let go %.4g s before its ignition",
+                         summary->rocket[i].tube, -summary->rocket[i].t_release);
     note_vertical(summary);
     note_measures(run);
     exit_error_note(run);
     note_rests(summary);
     if (self->system->growing.real > 0)
-        simulation_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
-                        self->system->growing.real, self->system->growing.shape);
+        summary_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
+                     self->system->growing.real, self->system->growing.shape);
 }

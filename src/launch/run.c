@@ -6,9 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cpu_time.h"
+#include "flight/flight_alone.h"
 #include "integration/saved_state.h"
 #include "launch/launch_outside.h"
 #include "launch/launch_run.h"
+#include "launch/launch_told.h"
+#include "state/history.h"
 
 static bool has_launch(const ld_run *run)
 {
@@ -56,7 +60,7 @@ static ld_status told(const ld_run *run, ld_error *error)
 static ld_status begin(const ld_simulation *simulation, const ld_run_options *options, bool outside,
                        const launch_start *given, ld_run **out, ld_error *error)
 {
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     ld_run *run = *out = run_create(simulation, options, outside);
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
@@ -64,7 +68,7 @@ static ld_status begin(const ld_simulation *simulation, const ld_run_options *op
     if (!run->status)
         run->status =
             has_launch(run) ? launch_begin(run) : flight_alone_begin(simulation, &run->error);
-    run->cpu += simulation_cpu_now() - start;
+    run->cpu += cpu_time_now() - start;
     return told(run, error);
 }
 
@@ -88,12 +92,12 @@ static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
     if (!(t >= run->t) && !launch_is_finished(run))
         return ld_fail(error, LD_ERR_INPUT,
                        "the run stands at t = %.9g s and cannot go on to t = %.9g s", run->t, t);
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     if (run->launch.launcher.base.kind->tell) // what it is told comes then
         run->t_input = t;
     launch_advance(run, t, to_event);
     run->t_input = INFINITY;
-    run->cpu += simulation_cpu_now() - start;
+    run->cpu += cpu_time_now() - start;
     return told(run, error);
 }
 
@@ -131,21 +135,13 @@ ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *err
         return told(run, error);
     if (ld_run_is_finished(run))
         return ld_fail(error, LD_ERR_INPUT, "the launch is over, the base is told nothing more");
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     ld_status status = launch_tell_base(run, base, error);
-    run->cpu += simulation_cpu_now() - start;
+    run->cpu += cpu_time_now() - start;
     return status ? status : told(run, error);
 }
 
 // ---- what it tells
-
-const double *run_present_state(ld_run *run)
-{
-    if (!run->ahead)
-        return propagator_state(run->propagator);
-    propagator_interpolate(run->propagator, run->t, run->between);
-    return run->between;
-}
 
 ld_status ld_run_row(ld_run *run, double *values, ld_error *error)
 {
@@ -305,14 +301,14 @@ ld_status ld_run_end(ld_run *run, ld_summary *summary, ld_error *error)
 {
     if (!run)
         return LD_OK;
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     if (!has_launch(run) && summary) {
         run->status =
             flight_alone_run(run->launch.system, &run->options, &run->summary, &run->error);
     } else if (summary) {
         if (!run->status)
             run->status = launch_is_finished(run) ? launch_fly_all(run) : end_early(run);
-        run->cpu += simulation_cpu_now() - start;
+        run->cpu += cpu_time_now() - start;
         launch_summarise(run);
     }
     if (summary)
@@ -328,9 +324,9 @@ static ld_status begin_exit_error(ld_run *run)
     const launch_state *launch = &run->launch;
     if (!has_launch(run) || launch->model->run.exit_error != LD_EXIT_ERROR_YES)
         return LD_OK;
-    double start = simulation_cpu_now();
+    double start = cpu_time_now();
     ld_status status = exit_error_create(launch->system, &run->exit_error, &run->error);
-    run->cpu += simulation_cpu_now() - start;
+    run->cpu += cpu_time_now() - start;
     return status;
 }
 

@@ -1,7 +1,7 @@
 // A vehicle alone: the base of a launcher, taken forward under the wrench that it is told.
 //
 // State: the base's | its works by kind of force | the work of the tube's wrench.
-#include "launchdyn/vehicle_run.h"
+#include "launch/vehicle_run.h"
 
 #include <float.h>
 #include <math.h>
@@ -11,7 +11,8 @@
 #include "elements/held_wrench.h"
 #include "integration/integrator.h"
 #include "integration/saved_state.h"
-#include "quantities/launch_quantities.h"
+#include "launchdyn/vehicle_run.h"
+#include "state/equilibrium.h"
 #include "state/launch_state.h"
 
 enum { MOST_STATES = BASE_MOST_STATES + BASE_MOST_WORKS + 1 };

@@ -10,10 +10,12 @@
 
 #include "base/random.h"
 #include "launch/launch_run.h"
+#include "launch/simulation_build.h"
 #include "launchdyn/response.h"
 #include "linear/response_state.h"
 #include "math/functions.h"
 #include "quantities/study_results.h"
+#include "state/linearise.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 // A pattern is left out where all that is left is this share of each number's own deviation.

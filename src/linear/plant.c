@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "state/history.h"
 #include "state/launch_state.h"
+#include "state/linearise.h"
 
 static size_t plant_size(const plant *self)
 {

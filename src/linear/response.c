@@ -9,6 +9,7 @@
 
 #include "base/suggestion.h"
 #include "environment/road.h"
+#include "launch/simulation_build.h"
 #include "linear/plant.h"
 #include "linear/response_state.h"
 #include "math/functions.h"

@@ -2,7 +2,33 @@
 #ifndef LD_SIMULATION_MEASURING_H
 #define LD_SIMULATION_MEASURING_H
 
-#include "quantities/measures.h"
+#include "model/model.h"
+
+// An instant of a rocket. The start is that of the run, of a later rocket when its tube took the
+// place of the one before; the end when the next one's does, of the last that of the launch; in a
+// flight that of the flight.
+typedef struct measure_instant {
+    enum {
+        INSTANT_START,
+        INSTANT_IGNITION,
+        INSTANT_RELEASE,
+        INSTANT_EXIT,
+        INSTANT_BURNOUT, // from here on of a flight
+        INSTANT_APOGEE,
+        INSTANT_IMPACT,
+        INSTANT_END
+    } kind;
+    int adaptor; // of an exit
+} measure_instant;
+
+// A measure as a simulation takes it.
+typedef struct measure_plan {
+    bool flight; // of a column of the rocket's flight, not of the launch
+    int column;
+    ld_take take;
+    measure_instant from, to; // of a value the same
+    double within[2];         // [s] since `from`
+} measure_plan;
 
 // A measure of one rocket, as far as it has been taken.
 typedef struct measure_window {

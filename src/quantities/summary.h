@@ -229,4 +229,7 @@ struct ld_summary {
     char note[8][256];
 };
 
+// Adds a remark that the user should see.
+void summary_note(ld_summary *summary, const char *format, ...) LD_PRINTF(2, 3);
+
 #endif

@@ -9,9 +9,9 @@
 
 #include "base/memory_stream.h"
 #include "base/numeric_locale.h"
+#include "launch/measures.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
-#include "quantities/measures.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 #include "results/json.h"

@@ -1,9 +1,9 @@
 #include <string.h>
 
 #include "base/printed.h"
+#include "launch/measures.h"
 #include "launchdyn/output.h"
 #include "math/functions.h"
-#include "quantities/measures.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 

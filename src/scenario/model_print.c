@@ -2,8 +2,8 @@
 #include <locale.h>
 
 #include "base/printed.h"
+#include "launch/measures.h"
 #include "model/fields/field.h"
-#include "quantities/measures.h"
 #include "quantities/study_results.h"
 #include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"

@@ -1,8 +1,8 @@
 // Energies of the launcher and what their balance misses.
+#include "state/energy.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "state/launch_state.h"
 
 _Static_assert((int)LAUNCHER_MOST_WORKS <= (int)LD_MAX_WORKS, "works have no room");
 

@@ -1,9 +1,9 @@
 // Directions and their rates; the tube's tip against the undeformed tube; the rocket against the
 // launcher: figures of its exit that keep their meaning however steep the launcher stands and
 // however it moves.
+#include "state/exit_figures.h"
 
 #include "math/functions.h"
-#include "state/launch_state.h"
 
 direction_angles direction_angles_of(v3 d, v3 d_dot)
 {

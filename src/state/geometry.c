@@ -1,11 +1,12 @@
 // What a launcher looks like: places, sizes and mode shapes, for whoever draws its motion.
+#include "state/geometry.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "elements/air/barrowman.h"
 #include "model/guide.h"
 #include "model/salvo.h"
-#include "state/simulation.h"
 
 enum { MOST_ARRAYS = 32 };
 

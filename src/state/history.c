@@ -1,12 +1,14 @@
 // The history of a launch: what is found at an instant, and the quantities that stand in it, each
 // of them a column.
+#include "state/history.h"
+
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 
-#include "quantities/launch_quantities.h"
 #include "quantities/quantity_table.h"
-#include "state/launch_state.h"
+#include "state/energy.h"
+#include "state/exit_figures.h"
 
 // What belongs to one adaptor; nothing touches where it has passed the tip.
 typedef struct instant_contact {

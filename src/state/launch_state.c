@@ -22,6 +22,34 @@ void launch_state_end(launch_state *self)
     jets_free(&self->jets);
 }
 
+launching_phase simulation_start_phase(const launch_state *self)
+{
+    launching_phase phase = {.rocket = true, .locked = true};
+    const ld_rocket *rocket = self->rocket;
+    phase.breech = rocket->start_at;
+    phase.breech_speed = rocket->contact.reference_speed;
+    // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
+    double out = self->model->tubes.length - 1e-6;
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
+        phase.touch_speed[i] = rocket->contact.reference_speed;
+        for (int k = 0; k < LD_MAX_SURFACES; k++)
+            phase.surface_speed[i][k] = rocket->contact.reference_speed;
+    }
+    return phase;
+}
+
+void simulation_straight(const launch_state *self, const base_frame *base, double *y)
+{
+    const launching_layout *at = &self->launcher.launching.layout;
+    memset(y, 0, (size_t)at->count * sizeof(double));
+    v3_store(y + at->r, base->r);
+    memcpy(y + at->quaternion, &base->q, sizeof base->q);
+    y[at->x + X_S] = self->rocket->start_at;
+    y[at->x + X_Y] = self->launcher.launching.surfaces.line_y;
+    y[at->x + X_Z] = self->launcher.launching.surfaces.line_z;
+}
+
 void launch_state_select(launch_state *self, int i)
 {
     assert(i >= 0 && i < self->model->firing_count);

@@ -1,4 +1,6 @@
 // Natural frequencies and damping: eigenvalues of the equations linearised at rest.
+#include "state/linearise.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +9,7 @@
 #include "math/matrices/dense.h"
 #include "math/matrices/general_eigen.h"
 #include "math/vectors/rotation_vector.h"
-#include "state/launch_state.h"
+#include "state/equilibrium.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 // Eigenvalues below this modulus [1/s] belong to the neutral directions of a base that moves.

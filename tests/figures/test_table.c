@@ -7,6 +7,7 @@
 
 #include "base/text_file.h"
 #include "figures/plot.h"
+#include "flight/flight_history.h"
 #include "flight/free_flight.h"
 #include "scenario/units.h"
 #include "state/simulation.h"

@@ -7,10 +7,12 @@
 #include <string.h>
 
 #include "base/text_file.h"
+#include "flight/flight_history.h"
 #include "flight/free_flight.h"
+#include "launch/vehicle_run.h"
 #include "launchdyn/output.h"
-#include "quantities/launch_quantities.h"
 #include "quantities/study_results.h"
+#include "state/history.h"
 #include "state/simulation.h"
 #include "support/reference_model.h"
 #include "support/scratch.h"

@@ -8,6 +8,7 @@
 #include "math/vectors/mat3.h"
 #include "quantities/study_results.h"
 #include "scenario/scenario.h"
+#include "state/exit_figures.h"
 #include "state/launch_state.h"
 #include "support/draw.h"
 #include "support/recorded_run.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "flight/flight_alone.h"
 #include "flight/flight_lanes.h"
 #include "scenario/scenario.h"
 #include "state/simulation.h"

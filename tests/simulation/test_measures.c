@@ -3,7 +3,6 @@
 #include "support/check.h"
 
 #include "launchdyn/simulation.h"
-#include "quantities/measures.h"
 #include "quantities/summary.h"
 #include "scenario/scenario.h"
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "scenario/scenario.h"
+#include "state/equilibrium.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/line_frequencies.h"

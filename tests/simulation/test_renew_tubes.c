@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "launch/simulation_build.h"
 #include "model/fields/field.h"
 #include "scenario/scenario.h"
 #include "state/simulation.h"

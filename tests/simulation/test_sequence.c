@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scenario/scenario.h"
+#include "state/equilibrium.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"

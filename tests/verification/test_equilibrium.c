@@ -3,6 +3,7 @@
 // closed.
 #include <stdlib.h>
 
+#include "state/equilibrium.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/launching_run.h"

@@ -3,6 +3,7 @@
 // against the sine series, whose quasi-static part is the triangle of statics.
 #include <stdlib.h>
 
+#include "state/equilibrium.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/launching_run.h"

@@ -2,6 +2,7 @@
 // and where the rockets are meanwhile.
 #include <stdlib.h>
 
+#include "state/equilibrium.h"
 #include "state/propagator.h"
 #include "support/check.h"
 #include "support/dense_vehicle.h"

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "scenario/scenario.h"
+#include "state/equilibrium.h"
+#include "state/linearise.h"
 #include "state/propagator.h"
 #include "support/check.h"
 #include "support/dense_flight.h"

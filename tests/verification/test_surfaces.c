@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "scenario/scenario.h"
+#include "state/equilibrium.h"
 #include "support/check.h"
 #include "support/dense_simulation.h"
 #include "support/fresh_launch.h"

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "state/launch_state.h"
+#include "state/linearise.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

@@ -8,7 +8,9 @@
 #include <string.h>
 #include <time.h>
 
+#include "flight/flight_alone.h"
 #include "flight/flight_lanes.h"
+#include "launch/simulation_build.h"
 #include "quantities/study_results.h"
 #include "state/simulation.h"
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "launch/measures.h"
 #include "model/fields/field.h"
-#include "quantities/measures.h"
 #include "quantities/study_results.h"
 #include "scenario/scenario.h"
 #include "studies/statistics/statistics.h"

@@ -1,4 +1,4 @@
-#include "quantities/measures.h"
+#include "launch/measures.h"
 
 #include <assert.h>
 #include <stdarg.h>
@@ -6,7 +6,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "quantities/launch_quantities.h"
+#include "flight/flight_history.h"
+#include "state/history.h"
 #include "systems/bases/base.h"
 
 // ---- columns

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "launch/measures.h"
 #include "launchdyn/summary.h"
-#include "quantities/measures.h"
 #include "quantities/summary_quantities.h"
 
 ld_summary *ld_summary_new(void)

@@ -1,0 +1,107 @@
+#include "launch/simulation_build.h"
+
+#include <assert.h>
+#include <stdlib.h>
+
+#include "base/cpu_time.h"
+#include "flight/flight_alone.h"
+#include "launch/measures.h"
+#include "launch/vehicle_run.h"
+#include "model/salvo.h"
+#include "state/history.h"
+#include "state/linearise.h"
+
+static ld_status create_flights(ld_simulation *self, ld_error *error)
+{
+    const ld_model *model = self->model;
+    if (!model_feels_air(model) && !model_has_jet(model))
+        return LD_OK;
+    self->flight_of = calloc((size_t)model->firing_count, sizeof *self->flight_of);
+    if (!self->flight_of)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the air about the rockets");
+    ld_status status = LD_OK;
+    for (int i = 0; i < model->firing_count && !status; i++) {
+        status = flight_build(&self->flight_of[i], model, i, error);
+        self->flight_count += !status;
+    }
+    return status;
+}
+
+static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_error *error)
+{
+    const ld_model *model = self->model;
+    ld_status status = launcher_build(&self->launcher, model, kept, error);
+    int count = model->salvo ? model->firing_count : 1;
+    for (int i = 0; i < count && !status; i++) {
+        status = motor_build(&self->motor_of[i], salvo_rocket(model, i), error);
+        self->motor_count += !status;
+    }
+    if (!status)
+        status = create_flights(self, error);
+    if (status)
+        return status;
+    status = history_build(self, error);
+    if (!status)
+        status = measures_build(model, self->measure, error);
+    if (!status && self->launcher.base.kind->dynamics)
+        self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
+    return status;
+}
+
+static ld_status renew_launch(ld_simulation *self, const ld_model *model, ld_error *error)
+{
+    launching_tube kept = launching_take_tube(&self->launcher.launching);
+    simulation_clear(self);
+    self->model = model;
+    ld_status status = create_launch(self, &kept, error);
+    launching_tube_free(&kept);
+    return status;
+}
+
+static ld_status renew_flight(ld_simulation *self, const ld_model *model, ld_error *error)
+{
+    if (self->flight.rocket) {
+        // after another flight alone there is no launcher to be cleared
+        flight_free(&self->flight);
+        quantity_columns_free(&self->columns);
+    } else {
+        simulation_clear(self);
+    }
+    self->model = model;
+    ld_status status = flight_alone_create(self, error);
+    return status ? status : measures_build(model, self->measure, error);
+}
+
+ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)
+{
+    if (!*simulation)
+        *simulation = simulation_make(error);
+    ld_simulation *self = *simulation;
+    if (!self)
+        return LD_ERR_MEMORY;
+    ld_status status = model_has_launcher(model) ? renew_launch(self, model, error)
+                                                 : renew_flight(self, model, error);
+    if (status)
+        simulation_clear(self);
+    return status;
+}
+
+ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
+{
+    assert(model && out);
+    double start = cpu_time_now();
+    ld_simulation *self = NULL;
+    ld_status status = simulation_renew(&self, model, error);
+    if (!status)
+        status =
+            simulation_tube_modes(self, self->mode, 6 + LD_MAX_MODES, &self->mode_count, error);
+    if (!status)
+        status = vehicle_run_name_columns(self, error);
+    if (status) {
+        ld_simulation_free(self);
+        return status;
+    }
+    self->cpu_seconds_setup = cpu_time_now() - start;
+    *out = self;
+    return LD_OK;
+}
