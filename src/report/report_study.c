@@ -1,11 +1,11 @@
 // From folders of studies to one HTML file.
-#include "report/report_study.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory_stream.h"
 #include "base/numeric_locale.h"
+#include "report/report_html.h"
+#include "report/report_study_page.h"
 
 // ---- what is laid side by side
 
@@ -51,13 +51,6 @@ static void add_series(study_source *source, const study_data *data, const char 
                  both ? ", " : "", both ? name : "");
         number_label(source, series);
     }
-}
-
-void study_take_problem(study_source *source, const char *what, const ld_error *error)
-{
-    report_take_note(source->report, "%s%.230s.", what, error->text);
-    if (!source->problem.status)
-        source->problem = *error;
 }
 
 // LD_ERR_FILE, LD_ERR_MEMORY: one could not be read; what is none, or damaged, is noted.

@@ -1,7 +1,8 @@
-// Measured shots in the report of studies.
+#include "report/report_study_measured.h"
+
 #include <math.h>
 
-#include "report/report_study.h"
+#include "report/report_study_numbers.h"
 #include "results/json_text.h"
 
 // Points that a plot shows of one side, where there is room.

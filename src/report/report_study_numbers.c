@@ -1,8 +1,7 @@
-// Histograms, places and points of the report of studies.
+#include "report/report_study_numbers.h"
 
 #include "base/random.h"
 #include "math/functions.h"
-#include "report/report_study.h"
 
 // 0: the rule gives none.
 static double bin_width(const double *sorted, size_t count)
@@ -58,4 +57,25 @@ bool study_shows_point(int64_t sample, int rocket, size_t count, size_t most)
 {
     double u = random_uniform(0, random_stream("report"), (uint64_t)sample, (uint64_t)rocket, 0);
     return u * (double)count < (double)most;
+}
+
+// ---- as JSON
+
+void study_write_short(FILE *json, double value)
+{
+    if (isfinite(value))
+        fprintf(json, "%.8g", value);
+    else
+        fputs("null", json);
+}
+
+void study_write_estimate(FILE *json, int index, estimate e, study_write_number *write)
+{
+    fputs(index ? ",[" : "[", json);
+    write(json, e.value);
+    fputc(',', json);
+    write(json, e.low);
+    fputc(',', json);
+    write(json, e.high);
+    fputc(']', json);
 }

@@ -1,11 +1,16 @@
-// What the report of studies shows, as JSON. All statistics are computed here, none in the page.
+#include "report/report_study_page.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "launchdyn/version.h"
-#include "report/report_study.h"
+#include "report/report_study_measured.h"
+#include "report/report_study_numbers.h"
+#include "report/report_study_plan.h"
+#include "report/report_study_scatter.h"
+#include "report/report_study_sensitivity.h"
 #include "results/json_text.h"
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.
@@ -20,25 +25,6 @@ static int most_places(const study_source *source, int results)
 
 // ---- numbers
 
-void study_write_short(FILE *json, double value)
-{
-    if (isfinite(value))
-        fprintf(json, "%.8g", value);
-    else
-        fputs("null", json);
-}
-
-void study_write_estimate(FILE *json, int index, estimate e, study_write_number *write)
-{
-    fputs(index ? ",[" : "[", json);
-    write(json, e.value);
-    fputc(',', json);
-    write(json, e.low);
-    fputc(',', json);
-    write(json, e.high);
-    fputc(']', json);
-}
-
 static void write_named(FILE *json, const char *name, double value)
 {
     fprintf(json, ",\"%s\":", name);
@@ -49,34 +35,6 @@ static void write_text(FILE *json, const char *name, const char *text)
 {
     fprintf(json, ",\"%s\":", name);
     json_write_text(json, text ? text : "");
-}
-
-// ---- reading
-
-void study_read(study_source *source, study_series *series, const study_column *const *column,
-                int columns)
-{
-    ld_error error;
-    if (!study_data_read(series->data, series->point, column, columns, &series->values, &error) ||
-        series->broken)
-        return;
-    char what[128];
-    series->broken = true;
-    snprintf(what, sizeof what,
-             "%.60s is broken, the numbers are of what could be read: ", series->label);
-    study_take_problem(source, what, &error);
-}
-
-void study_read_values(study_source *source, study_series *series, const char *const *name,
-                       int columns)
-{
-    const study_column *column[2];
-    const char *nearest;
-    series->values.count = 0;
-    for (int i = 0; i < columns; i++)
-        if (!(column[i] = study_data_find(series->data, name[i], &nearest)))
-            return;
-    study_read(source, series, column, columns);
 }
 
 // ---- one result

@@ -1,9 +1,9 @@
-// What a study was asked to do: plan, factors with their distributions, sweep.
+#include "report/report_study_plan.h"
+
 #include <stdarg.h>
 #include <string.h>
 
 #include "report/report_origin.h"
-#include "report/report_study.h"
 #include "results/json_text.h"
 #include "scenario/scenario.h"
 #include "scenario/scenario_text.h"

@@ -1,10 +1,11 @@
-// Two results of a study against each other: points, the ellipse, of a cloud that is not normal the
-// contours of its density; of landing points their footprints.
+#include "report/report_study_scatter.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "report/report_study.h"
+#include "quantities/study_results.h"
+#include "report/report_study_numbers.h"
 #include "results/json_text.h"
 #include "studies/show/footprint.h"
 #include "studies/statistics/normality.h"

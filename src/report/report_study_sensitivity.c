@@ -1,8 +1,9 @@
-// Sensitivities in the report of studies: how much of a result's variance each factor makes alone.
+#include "report/report_study_sensitivity.h"
+
 #include <math.h>
 #include <stdlib.h>
 
-#include "report/report_study.h"
+#include "report/report_study_numbers.h"
 #include "results/json_text.h"
 #include "studies/statistics/sensitivity.h"
 

@@ -9,7 +9,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/report.h"
 #include "studies/store/row_digest.h"
-#include "studies/store/store.h"
+#include "studies/store/store_check.h"
 #include "studies/store/study_data.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

@@ -7,8 +7,12 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "launchdyn/report.h"
 #include "launchdyn/study.h"
-#include "report/report_study.h"
+#include "quantities/study_results.h"
+#include "report/report_html.h"
+#include "report/report_study_numbers.h"
+#include "studies/statistics/agreement.h"
 #include "studies/statistics/density.h"
 #include "studies/statistics/sensitivity.h"
 

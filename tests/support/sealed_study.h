@@ -5,7 +5,7 @@
 #include <sqlite3.h>
 
 #include "studies/store/row_digest.h"
-#include "studies/store/store.h"
+#include "studies/store/store_check.h"
 #include "support/check.h"
 
 // The digest of a sample and its rockets as they stand there.

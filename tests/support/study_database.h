@@ -4,6 +4,7 @@
 
 #include <sys/stat.h>
 
+#include "studies/store/store_tables.h"
 #include "support/scratch.h"
 #include "support/sealed_study.h"
 

@@ -1,11 +1,11 @@
-// The table of a study's rockets as HDF5: group `rockets` with a dataset for each column, of a
-// sweep group `points` too.
+#include "studies/show/export_hdf5.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "results/hdf5_support.h"
-#include "studies/show/export.h"
+#include "studies/show/export_table.h"
 
 enum { BLOCK = 1024, STATUS = 16 };
 

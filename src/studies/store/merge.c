@@ -10,6 +10,8 @@
 #include "base/printed.h"
 #include "base/text_file.h"
 #include "studies/store/store.h"
+#include "studies/store/store_check.h"
+#include "studies/store/store_tables.h"
 
 // The databases that a folder holds of a study run in parts.
 typedef struct shard_list {

@@ -1,5 +1,5 @@
-// What a study's database says once: tables, points, the scenario; and whether it is that of this
-// scenario.
+#include "studies/store/store_begin.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +9,9 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/version.h"
 #include "scenario/scenario.h"
-#include "studies/store/store.h"
+#include "studies/store/store_check.h"
+#include "studies/store/store_tables.h"
+#include "studies/store/store_text.h"
 
 // The scenario as text in which nothing is left out but when to stop: the rule, and the number of
 // samples where more may be added.
@@ -36,19 +38,6 @@ static ld_status make_tables(study_store *self, ld_error *error)
         status = store_execute(self, text, error);
     sqlite3_free(text);
     return status;
-}
-
-ld_status store_set_text(study_store *self, const char *name, const char *value, ld_error *error)
-{
-    sqlite3_stmt *insert =
-        store_prepare(self, "INSERT OR REPLACE INTO study (name, value) VALUES (?, ?)", error);
-    if (!insert)
-        return store_status(self);
-    sqlite3_bind_text(insert, 1, name, -1, SQLITE_STATIC);
-    sqlite3_bind_text(insert, 2, value, -1, SQLITE_STATIC);
-    int result = sqlite3_step(insert);
-    sqlite3_finalize(insert);
-    return result == SQLITE_DONE ? LD_OK : store_fail(self, "write", error);
 }
 
 static ld_status put_points(study_store *self, ld_error *error)
@@ -201,13 +190,6 @@ static ld_status put_origin(study_store *self, ld_error *error)
         status = store_set_text(self, "resolved", origin.scenario, error);
     ld_origin_free(&origin);
     return status;
-}
-
-ld_status store_set_number(study_store *self, const char *name, int64_t value, ld_error *error)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%" PRId64, value);
-    return store_set_text(self, name, text, error);
 }
 
 static ld_status begin_or_compare(study_store *self, const char *identity, ld_error *error)

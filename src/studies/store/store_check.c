@@ -1,4 +1,4 @@
-#include "studies/store/store.h"
+#include "studies/store/store_check.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -6,62 +6,12 @@
 
 #include "launchdyn/version.h"
 #include "studies/store/row_digest.h"
+#include "studies/store/store_tables.h"
+#include "studies/store/store_text.h"
 
 static bool is_damage(int result)
 {
     return result == SQLITE_CORRUPT || result == SQLITE_NOTADB || result == SQLITE_TOOBIG;
-}
-
-static ld_status fail(const store_view *self, ld_error *error)
-{
-    return store_fail_at(self->store, self->path, "read", error);
-}
-
-// A statement of a text in which "%s" is the database's name.
-static sqlite3_stmt *prepare(const store_view *self, const char *format, ld_error *error)
-{
-    char query[256];
-    sqlite3_stmt *statement = NULL;
-    sqlite3_snprintf(sizeof query, query, format, self->schema);
-    if (sqlite3_prepare_v2(self->store->database, query, -1, &statement, NULL) != SQLITE_OK)
-        fail(self, error);
-    return statement;
-}
-
-ld_status store_column_text(const store_view *self, sqlite3_stmt *row, int column, char **text,
-                            ld_error *error)
-{
-    const bool there = sqlite3_column_type(row, column) != SQLITE_NULL;
-    const char *found = there ? (const char *)sqlite3_column_text(row, column) : NULL;
-    *text = found ? strdup(found) : NULL;
-    return !there || *text ? LD_OK
-                           : ld_fail(error, LD_ERR_MEMORY, "no memory to read %s", self->path);
-}
-
-ld_status store_first_text(const store_view *self, sqlite3_stmt *row, char **text, ld_error *error)
-{
-    *text = NULL;
-    if (!row)
-        return error->status;
-    ld_status status = LD_OK;
-    int result = sqlite3_step(row);
-    if (result == SQLITE_ROW)
-        status = store_column_text(self, row, 0, text, error);
-    else if (result != SQLITE_DONE)
-        status = fail(self, error);
-    sqlite3_finalize(row);
-    return status;
-}
-
-ld_status store_view_text(const store_view *self, const char *name, char **text, ld_error *error)
-{
-    sqlite3_stmt *select = prepare(self, "SELECT value FROM %s.study WHERE name = ?", error);
-    *text = NULL;
-    if (!select) // SQLITE_ERROR: there is no such table
-        return sqlite3_errcode(self->store->database) == SQLITE_ERROR ? LD_OK
-                                                                      : store_status(self->store);
-    sqlite3_bind_text(select, 1, name, -1, SQLITE_STATIC);
-    return store_first_text(self, select, text, error);
 }
 
 // ---- what is said once
@@ -70,14 +20,14 @@ ld_status store_view_text(const store_view *self, const char *name, char **text,
 static ld_status digest_rows(const store_view *self, const char *format, uint32_t *digest,
                              ld_error *error)
 {
-    sqlite3_stmt *row = prepare(self, format, error);
+    sqlite3_stmt *row = store_view_prepare(self, format, error);
     int result;
     if (!row)
         return store_status(self->store);
     while ((result = sqlite3_step(row)) == SQLITE_ROW)
         *digest = digest_columns(*digest, row, 0, sqlite3_column_count(row));
     sqlite3_finalize(row);
-    return result == SQLITE_DONE ? LD_OK : fail(self, error);
+    return result == SQLITE_DONE ? LD_OK : store_view_fail(self, error);
 }
 
 static ld_status find_facts(const store_view *self, uint32_t *digest, ld_error *error)
@@ -171,14 +121,14 @@ ld_status store_walk_begin(store_walk *self, const store_view *view, const store
                            ld_error *error)
 {
     *self = (store_walk){.view = *view, .kept = *kept};
-    self->sample = prepare(view,
-                           "SELECT sample, point, status, digest, * FROM %s.sample "
-                           "WHERE sample >= ? ORDER BY sample LIMIT 1",
-                           error);
+    self->sample = store_view_prepare(view,
+                                      "SELECT sample, point, status, digest, * FROM %s.sample "
+                                      "WHERE sample >= ? ORDER BY sample LIMIT 1",
+                                      error);
     self->rocket =
-        self->sample
-            ? prepare(view, "SELECT * FROM %s.rocket WHERE sample = ? ORDER BY rocket", error)
-            : NULL;
+        self->sample ? store_view_prepare(
+                           view, "SELECT * FROM %s.rocket WHERE sample = ? ORDER BY rocket", error)
+                     : NULL;
     return self->rocket ? LD_OK : store_status(view->store);
 }
 
@@ -264,13 +214,13 @@ void store_walk_end(store_walk *self)
 static ld_status ask(const store_view *self, const char *format, int64_t *number, char text[160],
                      ld_error *error)
 {
-    sqlite3_stmt *row = prepare(self, format, error);
+    sqlite3_stmt *row = store_view_prepare(self, format, error);
     if (!row)
         return store_status(self->store);
     int result = sqlite3_step(row);
     char *told = NULL;
-    ld_status status =
-        result == SQLITE_ROW ? store_column_text(self, row, 0, &told, error) : fail(self, error);
+    ld_status status = result == SQLITE_ROW ? store_column_text(self, row, 0, &told, error)
+                                            : store_view_fail(self, error);
     const char *line = told ? strrchr(told, '\n') : NULL;
     *number = result == SQLITE_ROW ? sqlite3_column_int64(row, 0) : 0;
     snprintf(text, 160, "%s", line ? line + 1 : told ? told : "");

@@ -1,10 +1,11 @@
-// The tables of a study's database: what makes them, and whether it has these and no others, nor
-// anything else that would act when it is written or read (triggers, views, computed columns).
+// What makes the tables, and whether a database has these and no others, nor anything else that
+// would act when it is written or read (triggers, views, computed columns).
+#include "studies/store/store_tables.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #include "quantities/study_results.h"
-#include "studies/store/store.h"
 
 // "BEGIN, "name" COLUMN, ..., "name" COLUMNEND": between what all studies' have stand the columns
 // of this one.
@@ -49,11 +50,16 @@ static ld_status finish(const char *path, sqlite3_str *text, char **whole, ld_er
 
 // ---- of a study
 
+static bool is_of_rocket(const study_store *self, int factor)
+{
+    return self->study->nominal->scatter.factor[factor].per_rocket;
+}
+
 static void append_factors(sqlite3_str *text, const study_store *self, int of)
 {
     const ld_scatter *scatter = &self->study->nominal->scatter;
     for (int i = 0; i < scatter->factor_count; i++)
-        if (store_is_of_rocket(self, i) == (of == ROCKET))
+        if (is_of_rocket(self, i) == (of == ROCKET))
             append_column(text, of, scatter->factor[i].path);
 }
 
@@ -107,10 +113,9 @@ static ld_status append_own(const store_view *self, sqlite3_str *text, int of, l
     while ((result = sqlite3_step(row)) == SQLITE_ROW &&
            (name = (const char *)sqlite3_column_text(row, 0)))
         append_column(text, of, name);
-    ld_status status = !name ? no_memory(self->path, error)
-                       : result == SQLITE_DONE
-                           ? LD_OK
-                           : store_fail_at(self->store, self->path, "read", error);
+    ld_status status = !name                   ? no_memory(self->path, error)
+                       : result == SQLITE_DONE ? LD_OK
+                                               : store_view_fail(self, error);
     sqlite3_finalize(row);
     return status;
 }

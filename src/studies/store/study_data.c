@@ -10,6 +10,8 @@
 #include "scenario/scenario.h"
 #include "studies/statistics/statistics.h"
 #include "studies/store/store.h"
+#include "studies/store/store_check.h"
+#include "studies/store/store_text.h"
 
 typedef struct study_reader {
     study_store store;

@@ -5,6 +5,7 @@
 #include "model/fields/source.h"
 #include "results/origin.h"
 #include "studies/store/store.h"
+#include "studies/store/store_text.h"
 #include "studies/store/study_data.h"
 
 static char *copy_of(const char *text, size_t length)

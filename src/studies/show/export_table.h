@@ -1,10 +1,10 @@
 // The table of a study's rockets, to be written: columns with their units, rows from the database.
-#ifndef LD_STUDIES_EXPORT_H
-#define LD_STUDIES_EXPORT_H
+#ifndef LD_STUDIES_EXPORT_TABLE_H
+#define LD_STUDIES_EXPORT_TABLE_H
 
 #include <sqlite3.h>
 
-#include "studies/store/store.h"
+#include "studies/store/store_check.h"
 #include "studies/store/study_data.h"
 
 enum { EXPORT_KEYS = 4 }; // sample, rocket, tube, status: the first columns
@@ -18,6 +18,10 @@ typedef struct export_table {
     int64_t rockets; // given so far
 } export_table;
 
+// To be closed in any case.
+ld_status export_open(export_table *table, const study_data *data, ld_error *error);
+void export_close(export_table *table);
+
 // Before the first row.
 void export_begin(export_table *table);
 // The next row of a sample that is as it was kept, in table->row; *there: there is one. Refuses
@@ -26,8 +30,5 @@ ld_status export_next(export_table *table, bool *there, ld_error *error);
 
 // The unit of a column, "" without.
 const char *export_unit(const export_table *table, int column);
-
-// Writes an export_table, from its first row, as an HDF5 file: a table_writer.
-ld_status export_hdf5(void *exported, const char *file, const char *name, ld_error *error);
 
 #endif
