@@ -408,11 +408,10 @@ static double would_sink(const launch_state *launch, const double *y, v3 gravity
 }
 
 // Symmetric to the plane of the weight it may stand at the top of a hill, where nothing pulls it;
-// upright, or almost so with the floor below it, of any hill, else of one not far from where it
-// would come to rest.
+// upright of any hill, else of one not far from where it would come to rest.
 static bool may_stand_on_top(const ld_model *model, double sinks)
 {
-    bool upright = model->base.elevation >= 89 * degree && model->rocket.eccentricity[0] == 0;
+    bool upright = model->base.elevation == 90 * degree && model->rocket.eccentricity[0] == 0;
     bool symmetric = model->base.roll.term[0].amplitude == 0 && model->rocket.eccentricity[1] == 0;
     return symmetric && (upright || sinks < INFINITY);
 }
@@ -477,6 +476,7 @@ static void rests_in_channels_are_found(void **state)
     check_random_rests(draw_channel, (uint64_t[]){65, 159});
 }
 
+// The same state in the bore and between four rails, of which the lowest is touched.
 static void rails_are_the_bore(void **state)
 {
     (void)state;
@@ -579,7 +579,5 @@ int main(void)
         cmocka_unit_test(rests_in_channels_are_found), cmocka_unit_test(rails_are_the_bore),
         cmocka_unit_test(contact_loses_nothing),
     };
-    if (getenv("TMPF"))
-        cmocka_set_test_filter(getenv("TMPF"));
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
