@@ -5,6 +5,7 @@
 //   LD_EXIT_ERRORS           how many launches
 //   LD_EXIT_ERRORS_MARCHING  how many from vehicles
 //   LD_EXIT_ERRORS_FIRST     number of the first, to repeat one (1)
+//   LD_EXIT_ERRORS_TOLERANCE of the runs, to see what another one leaves (the scenario's)
 #include <stdlib.h>
 #include <string.h>
 
@@ -209,7 +210,8 @@ static int from_environment(const char *name, int otherwise)
 static bool over_what_is_told(int number, ld_model *model, const char *kind, double *ratio)
 {
     static ld_summary fine, usual;
-    double tolerance = model->run.tolerance;
+    const char *asked = getenv("LD_EXIT_ERRORS_TOLERANCE");
+    double tolerance = asked ? atof(asked) : model->run.tolerance;
     if (!run_at(model, tolerance, &usual) || !run_at(model, 1e-10, &fine))
         return false;
     const ld_rocket_summary *told = &usual.rocket[0], *exact = &fine.rocket[0];
@@ -217,9 +219,10 @@ static bool over_what_is_told(int number, ld_model *model, const char *kind, dou
                        told->tip_off.yaw_rate - exact->tip_off.yaw_rate);
     double rates = hypot(exact->tip_off.pitch_rate, exact->tip_off.yaw_rate);
     *ratio = off / told->exit_error.rates;
-    printf("  %4d %-8s rates %9.3f mrad/s, off by %.1e, told %.1e: %6.2f times%s\n", number, kind,
-           1e3 * rates, off / rates, told->exit_error.rates / rates, *ratio,
-           *ratio > 3 ? " !" : "");
+    printf(
+        "  %4d %-8s rates %9.3f mrad/s, off by %.1e, told %.1e: %6.2f times%s, %lld evaluations\n",
+        number, kind, 1e3 * rates, off / rates, told->exit_error.rates / rates, *ratio,
+        *ratio > 3 ? " !" : "", (long long)usual.statistics.rhs_evaluations);
     return true;
 }
 
