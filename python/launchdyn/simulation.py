@@ -188,7 +188,7 @@ class Simulation:
         return VehicleRun(self)
 
     def tube_modes(self, most: int = 64) -> list[Mode]:
-        """Natural frequencies [Hz] of tube and tail on their supports, base held, ascending."""
+        """Natural frequencies [Hz] of tube and tail on their supports, base fixed, ascending."""
         modes = (ld_mode * most)()
         count = library.ld_simulation_tube_modes(self.handle.pointer, modes, most)
         return [Mode(m.frequency, m.damping, m.real, text_of(m.shape)) for m in modes[:count]]

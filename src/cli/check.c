@@ -41,7 +41,7 @@ static void check_start(const ld_model *model, findings *found)
     if (found->status)
         ld_scenario_explain(model, &found->error, &found->errors);
     else
-        command_step("its start can be had");
+        command_step("found the initial state");
 }
 
 // Whether every axis of the sweep has its first or its last value there.
@@ -142,7 +142,7 @@ int command_check(const command *self, int argc, char **argv)
         COMMAND_SETS(&wishes.sets),
         COMMAND_STRICT(&wishes.strict),
         {"json", '\0', OPTION_FLAG, &wishes.json,
-         "Print as JSON what was understood, notes, and what is wrong", NULL},
+         "Print the scenario in SI, the warnings and the errors as JSON", NULL},
         COMMAND_USUAL};
     command_line line;
     int code = 0;
@@ -157,7 +157,7 @@ int command_check(const command *self, int argc, char **argv)
     if (found.point > 0) {
         char name[256];
         ld_scenario_point_name(model, found.point, name, sizeof name);
-        command_complain("this is point %d of the sweep: %s", found.point, name);
+        command_complain("the error is in point %d of the sweep: %s", found.point, name);
     }
     code = command_code(found.status);
     ld_messages_free(&found.errors);

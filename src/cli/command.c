@@ -115,7 +115,7 @@ int command_begin(void)
     signal(SIGXFSZ, SIG_IGN);
     if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= LEAST_STACK * 1024)
         return 0;
-    command_complain("the stack is limited to %llu kB, and %d kB are needed (ulimit -s %d)",
+    command_complain("the stack is limited to %llu kB, expected at least %d kB (ulimit -s %d)",
                      (unsigned long long)stack.rlim_cur / 1024, LEAST_STACK, LEAST_STACK);
     return EXIT_SYSTEM;
 }
@@ -142,7 +142,7 @@ static bool has_words(const command *self, const command_line *line, int count)
     if (count == COMMAND_WORDS ? line->count > 0 : count < 0 || line->count == (size_t)count)
         return true;
     char call[HELP_CALL];
-    command_complain("%s wants %s; see %s --help", self->name, self->arguments,
+    command_complain("%s requires %s; see %s --help", self->name, self->arguments,
                      help_call(self, call));
     return false;
 }
@@ -154,7 +154,7 @@ bool command_line_read(command_line *line, const command *self, int argc, char *
     ld_status status = options_read(line, argc, argv, options, &error);
     voice.since = now();
     if (!status && !line->help && voice.quiet && voice.verbose)
-        status = ld_fail(&error, LD_ERR_INPUT, "--quiet and --verbose do not go together");
+        status = ld_fail(&error, LD_ERR_INPUT, "--quiet and --verbose exclude each other");
     if (!status && !line->help && has_words(self, line, count))
         return true;
     if (!status && line->help)
@@ -216,7 +216,8 @@ void command_tell_difference(const char *folder, const ld_origin *origin)
 {
     char text[1024];
     if (ld_origin_differs(origin, text, sizeof text))
-        command_complain("note: %s was computed otherwise, which may change the last digits: %s",
+        command_complain("warning: %s was computed by another program or machine; the last digits "
+                         "may differ: %s",
                          folder, text);
 }
 

@@ -55,25 +55,25 @@ int command_wind(const command *self, int argc, char **argv);
 
 #define COMMAND_SETS(sets)                                                                         \
     {                                                                                              \
-        "set", '\0', OPTION_TEXTS, sets, "Set a key of the scenario; may be repeated",             \
+        "set", '\0', OPTION_TEXTS, sets, "Set a key of the scenario (can be repeated)",            \
             "PATH=VALUE"                                                                           \
     }
 
 #define COMMAND_STRICT(strict)                                                                     \
     {                                                                                              \
-        "strict", '\0', OPTION_FLAG, strict, "Refuse values that are allowed but hardly meant",    \
+        "strict", '\0', OPTION_FLAG, strict, "Treat warnings about implausible values as errors",  \
             NULL                                                                                   \
     }
 
 // The options of every command, with which its list ends: what is said beside the result, less than
 // usual or more, and its help.
 #define COMMAND_USUAL                                                                              \
-    {"quiet", 'q', OPTION_FLAG, command_quiet_flag(), "Print nothing but errors", NULL},           \
+    {"quiet", 'q', OPTION_FLAG, command_quiet_flag(), "Print errors only", NULL},                  \
         {"verbose",                                                                                \
          'v',                                                                                      \
          OPTION_FLAG,                                                                              \
          command_verbose_flag(),                                                                   \
-         "Say on standard error what is read, done and written, and how long each takes",          \
+         "Print each step and its duration on standard error",                                     \
          NULL},                                                                                    \
         {"help", 'h', OPTION_HELP, NULL, "Show this help and stop", NULL},                         \
     {                                                                                              \

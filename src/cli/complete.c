@@ -191,7 +191,7 @@ static void offer_names(const command *self, const command_option *option, size_
     for (size_t i = 0; strcmp(self->name, "plot") == 0 && (figure = ld_figure_at(i)); i++)
         offer_behind(from, figure->name, strlen(figure->name), "", figure->description);
     if (strcmp(option->name, "what") == 0)
-        offer_behind(from, "all", 3, "", "all that there are");
+        offer_behind(from, "all", 3, "", "all of them");
 }
 
 // ---- options and words

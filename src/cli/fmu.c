@@ -38,7 +38,7 @@ static bool find_part(const char *name, ld_fmu_part *part)
             return true;
         }
     const char *nearest = ld_nearest_name(name, names, PARTS);
-    command_complain("--part is all, vehicle or launcher, not \"%s\"%s%s%s", name,
+    command_complain("--part: found \"%s\", expected all, vehicle or launcher%s%s%s", name,
                      nearest ? "; did you mean \"" : "", nearest ? nearest : "",
                      nearest ? "\"?" : "");
     return false;
@@ -50,12 +50,12 @@ int command_fmu(const command *self, int argc, char **argv)
     wishes what = {0};
     const command_option options[] = {
         COMMAND_SETS(&sets),
-        {"part", '\0', OPTION_TEXT, &part, "all, the vehicle alone, or the launcher alone (all)",
+        {"part", '\0', OPTION_TEXT, &part, "Part of the model to export (all)",
          "all|vehicle|launcher"},
-        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI (3; in an archive 2)", "2|3"},
-        {"out", 'o', OPTION_TEXT, &out, "The FMU", "FILE"},
-        {"ssp", '\0', OPTION_TEXT, &archive, "Instead: an archive of SSP of vehicle and launcher",
-         "FILE"},
+        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI (3; for --ssp 2)", "2|3"},
+        {"out", 'o', OPTION_TEXT, &out, "File of the FMU", "FILE"},
+        {"ssp", '\0', OPTION_TEXT, &archive,
+         "Write vehicle and launcher as an SSP archive in place of an FMU", "FILE"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;
@@ -63,10 +63,11 @@ int command_fmu(const command *self, int argc, char **argv)
         what.out = archive ? archive : out;
         what.system = archive != NULL;
         if (line.count != 2 || strcmp(line.word[0], "export") != 0 || !what.out) {
-            command_complain("fmu wants export FILE and --out FILE; see launchdyn fmu --help");
+            command_complain(
+                "fmu requires export FILE and --out FILE or --ssp FILE; see launchdyn fmu --help");
             code = EXIT_INPUT;
         } else if (archive && (out || part)) {
-            command_complain("--ssp is an archive of both parts: without --out and --part");
+            command_complain("--ssp exports both parts; it excludes --out and --part");
             code = EXIT_INPUT;
         } else if (part && !find_part(part, &what.part)) {
             code = EXIT_INPUT;

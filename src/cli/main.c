@@ -13,10 +13,9 @@ static int command_version(const command *self, int argc, char **argv);
 static const command commands[] = {
     {.name = "new",
      .arguments = "",
-     .summary = "Write a scenario to begin with, commented and ready to run",
-     .about =
-         "Of a rocket in a tube or on a rail, which stands on the ground, on a vehicle or on a "
-         "ship. On a terminal it asks for what the options do not say. It overwrites nothing.",
+     .summary = "Write a commented first scenario that is ready to run",
+     .about = "The scenario has a rocket in a tube or on a rail, on the ground, a vehicle or a "
+              "ship. On a terminal, new asks for what no option sets. It never overwrites a file.",
      .examples = "launchdyn new --guide rail --base ship --out scenario.yaml|A rail on a ship\n"
                  "launchdyn new|Ask for everything",
      .run = command_new,
@@ -24,57 +23,58 @@ static const command commands[] = {
     {.name = "run",
      .arguments = "FILE",
      .summary = "Simulate the launch that a scenario file describes",
-     .about =
-         "Prints a table of the launch and, with --out, writes its results into a folder. With "
-         "--again FOLDER it repeats the run in that folder to the bit. Ctrl-C stops; what has "
-         "been computed is kept.",
-     .examples = "launchdyn run scenario.yaml --out out --report|Run, with a report in out\n"
+     .about = "Prints a table of the launch; --out writes the results into a folder. --again "
+              "FOLDER repeats the run stored in FOLDER, bit for bit. Ctrl-C stops the run and "
+              "keeps the results so far.",
+     .examples = "launchdyn run scenario.yaml --out out --report|Run and write a report into out\n"
                  "launchdyn run scenario.yaml --set rocket.mass='61 kg'|With another mass\n"
-                 "launchdyn run --again out --out again|Repeat what is in out",
+                 "launchdyn run --again out --out again|Repeat the run stored in out",
      .run = command_run,
      .apart = true},
     {.name = "study",
      .arguments = "FILE | show DIR | export DIR | merge DIR",
-     .summary = "Run the samples of a scattered scenario, or show what a study has found",
-     .about = "launchdyn study FILE --out DIR runs what DIR does not hold yet: the same command "
-              "goes on after an interruption. launchdyn study show DIR prints statistics, also "
-              "meanwhile; launchdyn study export DIR --csv FILE --hdf5 FILE writes all rockets, as "
-              "one or both; --footprint FILE.kml writes the footprints of the landings, for range "
-              "safety.\n\n"
-              "Jobs on several machines that share DIR take --shard 1/N to N/N, in any order; "
-              "launchdyn study merge DIR then joins what they have kept.",
-     .examples = "launchdyn study scenario.yaml --out out -j 4|Run or go on, four at a time\n"
-                 "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
-                 "results\n"
-                 "launchdyn study export out --csv all.csv|All rockets as a table",
+     .summary = "Run a Monte Carlo study or a sweep, or show its results",
+     .about =
+         "launchdyn study FILE --out DIR runs the samples that DIR lacks; after an interruption "
+         "the same command continues. launchdyn study show DIR prints statistics, also during the "
+         "run. launchdyn study export DIR writes the results of all rockets (--csv FILE, --hdf5 "
+         "FILE) or, for range safety, the footprints of the landing points (--footprint "
+         "FILE.kml).\n\nTo share a study among machines, run it on each with --shard I/N, I from 1 "
+         "to N, and the same DIR. launchdyn study merge DIR then merges the results.",
+     .examples =
+         "launchdyn study scenario.yaml --out out -j 4|Run or continue, four samples at a time\n"
+         "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
+         "results\n"
+         "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,
      .apart = true},
     {.name = "check",
      .arguments = "FILE",
-     .summary = "Check a scenario file and print what was understood, in SI",
-     .about = "Reads the scenario and does all that a run does before its first step. What it "
-              "prints is a scenario that can be read again.",
-     .examples = "launchdyn check scenario.yaml|All errors at once, or the whole scenario\n"
-                 "launchdyn check scenario.yaml --json --strict|For programs",
+     .summary = "Check a scenario file and print the model in SI units",
+     .about = "Reads the scenario and finds the initial state, as a run does before its first "
+              "step. The output is a scenario file again.",
+     .examples =
+         "launchdyn check scenario.yaml|Print all errors or the model\n"
+         "launchdyn check scenario.yaml --json --strict|Print JSON; treat warnings as errors",
      .run = command_check,
      .apart = true},
     {.name = "modes",
      .arguments = "FILE",
      .summary = "List natural frequencies and damping",
-     .about = "Of tube and tail on their supports, base held, and of the whole about its "
-              "equilibrium.",
+     .about = "Lists the modes of tube and tail on their supports with the base fixed, and those "
+              "of the whole system about its equilibrium.",
      .run = command_modes,
      .apart = true},
     {.name = "plot",
      .arguments = "DIR...",
-     .summary = "Draw figures of one run, or of several laid one over the other",
+     .summary = "Draw figures of one run, or of several runs overlaid",
      .examples = "launchdyn plot out --what tip,contact -o figure.svg|Two figures of a run",
      .more = command_plot_figures,
      .run = command_plot,
      .apart = true},
     {.name = "report",
      .arguments = "DIR...",
-     .summary = "Write one HTML file that shows runs or studies, offline and in any browser",
+     .summary = "Write one HTML file with the results of runs or studies; it works offline",
      .examples = "launchdyn report out|Write out/report.html",
      .run = command_report,
      .apart = true},
@@ -86,14 +86,14 @@ static const command commands[] = {
      .apart = true},
     {.name = "road",
      .arguments = "FILE",
-     .summary = "Show profile and spectrum of the road of a vehicle",
+     .summary = "Show profile and spectrum of the vehicle's road",
      .run = command_road,
      .apart = true},
     {.name = "response",
      .arguments = "FILE",
-     .summary = "Show what the launcher answers to road, base, commands and forces, linear",
-     .about = "Root mean squares, spectra and frequency responses of any column of the history, "
-              "from the equations linearised about the equilibrium, without a run.",
+     .summary = "Show the linear response to road, base motion, commands and forces",
+     .about = "Computes root mean squares, spectra and frequency responses of any column of the "
+              "history. The equations are linearised about the equilibrium; no run is needed.",
      .run = command_response,
      .apart = true},
     {.name = "wind",
@@ -104,7 +104,7 @@ static const command commands[] = {
     {.name = "version", .arguments = "", .summary = "Print the version", .run = command_version},
     {.name = "help",
      .arguments = "[COMMAND]",
-     .summary = "Print this, or the help of a command",
+     .summary = "Print this help, or the help of a command",
      .run = command_help},
     {0},
 };

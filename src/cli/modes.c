@@ -24,7 +24,7 @@ static void print_modes(const ld_mode *modes, int count)
 
 static void print_poles(const ld_pole *poles, int count)
 {
-    puts("Its eigenvalues with damping\n           real [1/s]  imaginary [rad/s]  shape");
+    puts("Eigenvalues of the damped system\n           real [1/s]  imaginary [rad/s]  shape");
     for (int i = 0; i < count; i++)
         printf("%4d %16.6g %18.6g  %s\n", i + 1, poles[i].real + 0.0, poles[i].imaginary + 0.0,
                poles[i].shape);
@@ -34,12 +34,12 @@ static void print_system(const ld_model *model, const ld_found_modes *modes)
 {
     const char *guide = ld_model_guide(model);
     if (ld_model_has_vehicle(model))
-        printf("\nVehicle with platforms, %s and locked rocket about their equilibrium on a flat "
-               "road, no Coulomb friction: moduli of the damped eigenvalues\n",
+        printf("\nVehicle, platforms, %s and locked rocket about their equilibrium on a flat road, "
+               "without Coulomb friction: moduli of the damped eigenvalues\n",
                guide);
     else
-        printf("\nUndamped frequencies of %s, tail and locked rocket about their equilibrium, no "
-               "Coulomb friction\n",
+        printf("\nUndamped frequencies of %s, tail and locked rocket about their equilibrium, "
+               "without Coulomb friction\n",
                guide);
     print_modes(modes->system, modes->system_count);
     putchar('\n');
@@ -53,14 +53,15 @@ static ld_status list_modes(const ld_model *model, bool json, ld_error *error)
     ld_found_modes found = {.tube = tube, .system = whole, .pole = poles};
     ld_simulation *simulation = NULL;
     if (!ld_model_has_launcher(model))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a scenario of flight only has no launcher and no modes");
     ld_status status = ld_simulation_create(model, &simulation, error);
     if (status)
         return status;
     bool text = !json && !command_is_quiet();
     found.tube_count = ld_simulation_tube_modes(simulation, tube, MOST);
     if (text) {
-        printf("Undamped frequencies of %s and tail on their supports, base held\n",
+        printf("Undamped frequencies of %s and tail on their supports, base fixed\n",
                ld_model_guide(model));
         print_modes(tube, found.tube_count);
     }
@@ -70,7 +71,7 @@ static ld_status list_modes(const ld_model *model, bool json, ld_error *error)
     ld_simulation_free(simulation);
     if (status)
         return status;
-    command_step("found those of the whole about its equilibrium");
+    command_step("found the modes of the whole system about its equilibrium");
     if (json)
         ld_modes_print_json(&found, stdout);
     if (text)

@@ -32,7 +32,7 @@ static bool is_one_of(const char *what, const char *word, const char *words)
         names[count++] = name;
     }
     const char *nearest = ld_nearest_name(word, names, count);
-    command_complain("the %s is one of %s, not \"%s\"%s%s%s", what, words, word,
+    command_complain("--%s: expected one of %s, found \"%s\"%s%s%s", what, words, word,
                      nearest ? "; did you mean \"" : "", nearest ? nearest : "",
                      nearest ? "\"?" : "");
     return false;
@@ -51,7 +51,7 @@ static char *ask(char *given, const char *question, const char *usual, char answ
     fprintf(stderr, "%s [%s] ", question, usual);
     if (!fgets(line, sizeof line, stdin)) {
         fputc('\n', stderr);
-        command_complain("the input ended before an answer: nothing is written");
+        command_complain("the input ended before an answer; no file is written");
         return NULL;
     }
     line[strcspn(line, "\r\n")] = '\0';
@@ -72,7 +72,7 @@ static void write_part(FILE *file, const char *name, const char *which)
 static void write_scenario(FILE *file, const new_wishes *self)
 {
     static const char *const places[][2] = {{"fixed", "on the ground"},
-                                            {"vehicle", "on a vehicle that marches"},
+                                            {"vehicle", "on a moving vehicle"},
                                             {"ship", "on a ship in a seaway"}};
     const char *place = "";
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
@@ -94,7 +94,8 @@ static int write_file(const new_wishes *self)
 {
     int number = open(self->out, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (number < 0 && errno == EEXIST) {
-        command_complain("%s is there already: new overwrites nothing", self->out);
+        command_complain("%s exists already; choose another name, new never overwrites a file",
+                         self->out);
         return EXIT_INPUT;
     }
     FILE *file = number < 0 ? NULL : fdopen(number, "w");
@@ -117,9 +118,9 @@ static void tell_next(const char *file)
 {
     char visible[ANSWER];
     ld_visible_text(file, visible, sizeof visible);
-    printf("%s is written. To look at it, to run it, to see it:\n"
+    printf("Wrote %s. Check it, run it, then open the report in a browser:\n"
            "  launchdyn check %s\n  launchdyn run %s --out out --report\n"
-           "  out/report.html, in a browser\n",
+           "  out/report.html\n",
            visible, visible, visible);
 }
 
@@ -134,7 +135,8 @@ static int make(new_wishes *self)
                      self->answer[1]);
     if (!self->base || !is_one_of("base", self->base, bases))
         return EXIT_INPUT;
-    if (asks && !(self->out = ask(self->out, "Into which file?", "scenario.yaml", self->answer[2])))
+    if (asks &&
+        !(self->out = ask(self->out, "Name of the file?", "scenario.yaml", self->answer[2])))
         return EXIT_INPUT;
     if (!self->out) {
         write_scenario(stdout, self);
@@ -155,9 +157,7 @@ int command_new(const command *self, int argc, char **argv)
         {"guide", 'g', OPTION_TEXT, &wishes.guide, "What guides the rocket (tube)", guides},
         {"base", 'b', OPTION_TEXT, &wishes.base, "What carries the guide (fixed)", bases},
         {"out", 'o', OPTION_TEXT, &wishes.out,
-         "The file, which must not be there yet (on a terminal it is asked for; else the scenario "
-         "is printed)",
-         "FILE"},
+         "New file (asked for on a terminal; otherwise the scenario is printed)", "FILE"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;

@@ -76,8 +76,8 @@ static ld_status take(command_line *line, int argc, const command_option *option
         return add_text(line, argc, option->value, error);
     case OPTION_INTEGER:
         if (!read_integer(optarg, option->value))
-            return ld_fail(error, LD_ERR_INPUT, "--%s wants a whole number, not %s", option->name,
-                           optarg);
+            return ld_fail(error, LD_ERR_INPUT, "--%s: found %s, expected a whole number",
+                           option->name, optarg);
         break;
     case OPTION_HELP:
         line->help = true;

@@ -155,14 +155,17 @@ static void print_page_examples(const command *self)
 static void print_exit_codes(void)
 {
     print_section("EXIT STATUS");
-    print_item("0", "Done; of a study also where samples have failed, which it counts and lists.");
-    print_item("1", "The launch or a flight could not be computed to its end; what was computed is "
-                    "written.");
-    print_item("2", "What was given is wrong, is not there or is damaged: words of the command "
-                    "line, scenario, tables, folders of results.");
-    print_item("3", "What is needed could not be had: a file written, memory, a thread, gnuplot.");
-    print_item("129, 130, 143", "Stopped by SIGHUP, SIGINT or SIGTERM; what was computed is "
-                                "written.");
+    print_item("0", "Success; also of a study with failed samples, which it counts and lists.");
+    print_item(
+        "1",
+        "The launch or a flight could not be computed to its end; the results so far are written.");
+    print_item(
+        "2",
+        "Wrong, missing or damaged input: command line, scenario, tables, folders of results.");
+    print_item("3", "The system failed: a file could not be written, or memory, a thread or "
+                    "gnuplot was unavailable.");
+    print_item("129, 130, 143",
+               "Stopped by SIGHUP, SIGINT or SIGTERM; the results so far are written.");
 }
 
 // The text that a command prints besides, as it is.
@@ -206,10 +209,11 @@ void page_print_all(const command *commands)
     print_section("SYNOPSIS");
     fputs(".B launchdyn\n.I COMMAND\n.RI [ OPTION ...]\\&\n", stdout);
     print_section("DESCRIPTION");
-    fputs("Simulates how a rocket leaves a flexible tube, or a rail,\non a fixed or moving base:\n"
-          "tube, supports, rocket, contacts, vehicle and road, then free flight.\n"
-          "A scenario is a text in YAML;\nresults are HDF5, JSON and CSV, figures and a report.\n",
-          stdout);
+    fputs(
+        "Simulates how a rocket leaves a flexible tube, or a rail,\non a fixed or moving base:\n"
+        "tube, supports, rocket, contacts, vehicle and road, then free flight.\n"
+        "A scenario is a YAML file;\nresults are HDF5, JSON and CSV files, figures and a report.\n",
+        stdout);
     print_section("COMMANDS");
     for (; commands->name; commands++) {
         printf(commands->apart ? ".TP\n.BR launchdyn\\-%s (1)\n" : ".TP\n.B launchdyn %s\n",
@@ -219,9 +223,8 @@ void page_print_all(const command *commands)
     }
     print_exit_codes();
     print_section("ENVIRONMENT");
-    print_item("LAUNCHDYN_PLAIN", "Where it is set, wide registers are not used; results are the "
-                                  "same.");
-    print_item("TMPDIR", "Where FMUs are unpacked.");
+    print_item("LAUNCHDYN_PLAIN", "If set, wide registers are not used; the results are the same.");
+    print_item("TMPDIR", "Folder in which FMUs are unpacked.");
     print_section("SEE ALSO");
     fputs(".BR gnuplot (1)\n", stdout);
 }

@@ -11,11 +11,11 @@ enum { MOST = 32 };
 
 void command_plot_figures(void)
 {
-    puts("Figures for --what, one below the other on one page:");
+    puts("Figures for --what, drawn one below the other on one page:");
     const ld_figure *figure;
     for (size_t i = 0; (figure = ld_figure_at(i)) != NULL; i++)
         printf("  %-13s %s\n", figure->name, figure->description);
-    puts("  all           all that there are columns for");
+    puts("  all           all whose columns the results have");
 }
 
 // Parts the list at its commas, in place.
@@ -61,23 +61,24 @@ int command_plot(const command *self, int argc, char **argv)
     wishes asked = {.from = NAN, .to = NAN};
     const command_option options[] = {
         {"what", 'w', OPTION_TEXT, &asked.what,
-         "Figures to draw (tip,contact,relative; of a flight alone trajectory,flight)", "NAME,..."},
-        {"output", 'o', OPTION_TEXT, &asked.file, "The picture: FILE.svg, FILE.pdf or FILE.png",
+         "Figures to draw (tip,contact,relative; for a flight without launcher trajectory,flight)",
+         "NAME,..."},
+        {"output", 'o', OPTION_TEXT, &asked.file, "Picture: FILE.svg, FILE.pdf or FILE.png",
          "FILE"},
-        {"from", '\0', OPTION_MILLISECONDS, &asked.from,
-         "Draw from this time after ignition [ms] on", "MS"},
-        {"to", '\0', OPTION_MILLISECONDS, &asked.to, "Draw up to this time after ignition [ms]",
+        {"from", '\0', OPTION_MILLISECONDS, &asked.from, "First time to draw, after ignition [ms]",
+         "MS"},
+        {"to", '\0', OPTION_MILLISECONDS, &asked.to, "Last time to draw, after ignition [ms]",
          "MS"},
         {"style", '\0', OPTION_TEXT, &asked.style,
-         "Looks: screen (default), dark, or paper, 84 mm wide", "NAME"},
+         "Style: screen (default), dark, or paper (84 mm wide)", "NAME"},
         {"width", '\0', OPTION_MILLIMETRES, &asked.width,
-         "Width of the picture [mm]; letters stay as large", "MM"},
+         "Width of the picture [mm]; the font size stays", "MM"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
         if (!asked.file) {
-            command_complain("plot wants -o FILE.svg, FILE.pdf or FILE.png");
+            command_complain("plot requires -o FILE.svg, FILE.pdf or FILE.png");
             code = EXIT_INPUT;
         } else {
             code = draw(&line, &asked);

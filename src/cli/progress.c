@@ -74,7 +74,7 @@ bool progress_go_on(void *self)
 }
 
 // "1234 of 5000 samples, 3 failed, 83.1 /s, 45 s left", and with a stopping rule "of at most 5000
-// samples, enough perhaps at 1450".
+// samples, next check of the stopping rule at 1450".
 void progress_samples(void *self, const ld_study_counts *counts)
 {
     run_progress *progress = self;
@@ -88,7 +88,8 @@ void progress_samples(void *self, const ld_study_counts *counts)
     bool open_end = counts->look > 0 && counts->look < counts->samples;
     int64_t next = open_end ? counts->look : counts->samples;
     if (open_end)
-        snprintf(look, sizeof look, ", enough perhaps at %lld", (long long)counts->look);
+        snprintf(look, sizeof look, ", next check of the stopping rule at %lld",
+                 (long long)counts->look);
     fprintf(stderr, "\r%lld of %s%lld samples%s, %lld failed, %.3g /s, %.0f s left     ",
             (long long)counts->done, open_end ? "at most " : "", (long long)counts->samples, look,
             (long long)counts->failed, rate, (double)(next - counts->done) / rate);

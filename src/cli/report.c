@@ -49,7 +49,7 @@ static int write_several(const char *const *folder, size_t count, bool studies, 
     ld_error error;
     char usual[PATH_SIZE];
     if (count > 1 && !file) {
-        command_complain("report of several folders wants -o FILE");
+        command_complain("report of several folders requires -o FILE");
         return EXIT_INPUT;
     }
     file = place_of(folder[0], file, usual);
@@ -70,9 +70,9 @@ int command_report(const command *self, int argc, char **argv)
 {
     char *file = NULL, *shots = NULL;
     const command_option options[] = {
-        {"output", 'o', OPTION_TEXT, &file, "The report (DIR/report.html)", "FILE"},
-        {"measured", '\0', OPTION_TEXT, &shots, "Of studies: beside the shots in this CSV file",
-         "FILE"},
+        {"output", 'o', OPTION_TEXT, &file, "File of the report (DIR/report.html)", "FILE"},
+        {"measured", '\0', OPTION_TEXT, &shots,
+         "Compare studies with the measured launches in this CSV file", "FILE"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;
@@ -81,7 +81,7 @@ int command_report(const command *self, int argc, char **argv)
         for (size_t i = 0; i < line.count; i++)
             studies |= holds_study(line.word[i]);
         if (shots && !studies) {
-            command_complain("--measured is an option of reports of studies");
+            command_complain("--measured requires at least one study");
             code = EXIT_INPUT;
         } else if (line.count > 1 || studies) {
             code = write_several(line.word, line.count, studies, shots, file);

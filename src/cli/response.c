@@ -54,7 +54,7 @@ static int show_response(const ld_model *model, void *data)
     if (!status && wishes->picture)
         status = ld_response_view_draw(view, wishes->picture, &error);
     if (!status)
-        command_step("computed and wrote what was asked for");
+        command_step("computed and wrote the results");
     if (!status && !command_is_quiet())
         ld_response_view_print(view, stdout);
     ld_response_view_free(view);
@@ -97,30 +97,32 @@ int command_response(const command *self, int argc, char **argv)
     const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
         {"what", 'w', OPTION_TEXT, &wishes.what,
-         "Quantities: columns of the history (all: all of them; without: a choice)", "NAME,..."},
+         "Quantities: columns of the history, or all (a selection)", "NAME,..."},
         {"input", 'i', OPTION_TEXT, &input,
-         "Frequency response from this input, in place of what the road does", "NAME"},
+         "Frequency response to this input in place of the response to the road", "NAME"},
         {"density", '\0', OPTION_TEXT, &density,
-         "Root mean squares and spectra where that input is random, its one-sided power spectral "
-         "density over the frequency in Hz in this CSV file",
+         "Root mean squares and spectra for a random input; the CSV file has its one-sided power "
+         "spectral density over the frequency in Hz",
          "FILE"},
         {"exit", 'x', OPTION_FLAG, &of_exit,
-         "Scatter of the exit on the road, at the scenario's speed or over --speeds; "
-         "--what: numbers of a launch",
+         "Scatter of the exit that the road causes, at the scenario's speed or over --speeds; "
+         "--what names results of a launch",
          NULL},
         {"draws", '\0', OPTION_INTEGER, &draws,
-         "Of the exit: from so many launches with drawn phases of the road, 2 or more, in place of "
+         "For --exit: compute N launches (2 or more) with sampled phases of the road in place of "
          "the first order",
          "N"},
-        {"rub", '\0', OPTION_FLAG, &rub, "Hinges rub as the road moves them; of the exit always",
+        {"rub", '\0', OPTION_FLAG, &rub,
+         "Linearise the friction of the hinges for the motion on the road; --exit always does",
          NULL},
         {"loop", '\0', OPTION_TEXT, &wishes.loop,
-         "Loop of this hinge, opened: margins, bandwidth, sensitivity", "azimuth|elevation"},
+         "Open loop of this hinge's stabiliser: margins, bandwidth, sensitivity",
+         "azimuth|elevation"},
         {"speeds", '\0', OPTION_TEXT, &wishes.speeds,
          "Root mean squares at these speeds in km/h, such as 0:60:1", "FROM:TO:STEP"},
         {"from", '\0', OPTION_HERTZ, &wishes.wish.from, "Lowest frequency in Hz (0.2)", "HZ"},
         {"to", '\0', OPTION_HERTZ, &wishes.wish.to, "Highest frequency in Hz (50)", "HZ"},
-        {"list", 'l', OPTION_FLAG, &wishes.list, "List inputs and quantities by name, and stop",
+        {"list", 'l', OPTION_FLAG, &wishes.list, "List the names of inputs and quantities and stop",
          NULL},
         {"out", 'o', OPTION_TEXT, &wishes.folder,
          "Write response-rms.csv and response-spectrum.csv, response-frequency.csv, "
@@ -143,7 +145,7 @@ int command_response(const command *self, int argc, char **argv)
     wishes.wish.what = names;
     wishes.wish.what_count = split(wishes.what, names);
     if (wishes.speeds && !read_speeds(wishes.speeds, &wishes.wish)) {
-        command_complain("--speeds wants FROM:TO:STEP in km/h, such as 0:60:1, and not \"%s\"",
+        command_complain("--speeds: found \"%s\", expected FROM:TO:STEP in km/h, such as 0:60:1",
                          wishes.speeds);
         code = EXIT_INPUT;
     } else {

@@ -23,7 +23,7 @@ static int show_road(const ld_model *model, void *data)
     if (!status && wishes->picture)
         status = ld_road_view_draw(view, wishes->picture, &error);
     if (!status)
-        command_step("computed and wrote what was asked for");
+        command_step("computed and wrote the results");
     if (!status && !command_is_quiet())
         ld_road_view_print(view, stdout);
     ld_road_view_free(view);
@@ -40,10 +40,11 @@ int command_road(const command *self, int argc, char **argv)
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw both with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
         {"from", '\0', OPTION_METRES, &wishes.stretch.from,
-         "Where the stretch begins, x in metres (-100)", "X"},
-        {"to", '\0', OPTION_METRES, &wishes.stretch.to, "Where it ends, in metres (100)", "X"},
-        {"step", '\0', OPTION_METRES, &wishes.stretch.step, "From place to place, in metres (0.02)",
-         "DX"},
+         "First x of the section, in metres (-100)", "X"},
+        {"to", '\0', OPTION_METRES, &wishes.stretch.to, "Last x of the section, in metres (100)",
+         "X"},
+        {"step", '\0', OPTION_METRES, &wishes.stretch.step,
+         "Spacing of the points, in metres (0.02)", "DX"},
         COMMAND_USUAL};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_road, &wishes);
     return code;

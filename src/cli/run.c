@@ -47,7 +47,7 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
                               .progress = progress_share};
     status = ld_simulation_run(simulation, &options, summary, error);
     progress_end(&progress);
-    command_step("ran the launch, from equilibrium to its end");
+    command_step("ran the launch from the equilibrium to its end");
 
     if (!leaves_results(status)) {
         ld_output_discard(output);
@@ -135,7 +135,7 @@ static int run_again(const char *folder, run_wishes *wishes)
         return command_fail(status, &error);
     int code = EXIT_INPUT;
     if (!origin.source) {
-        command_complain("%s cannot be run again: its model was not read from a scenario", folder);
+        command_complain("%s cannot be repeated: its model was not read from a scenario", folder);
     } else if ((status = command_read_source(origin.source, origin.point, &model)) != LD_OK) {
         code = command_code(status);
     } else {
@@ -154,12 +154,12 @@ static int run_words(const command *self, const command_line *line, const char *
                      run_wishes *wishes)
 {
     if (again && (line->count > 0 || wishes->sets))
-        command_complain("--again FOLDER repeats what is in FOLDER: neither a FILE nor --set goes "
-                         "with it");
+        command_complain(
+            "--again FOLDER repeats the run stored in FOLDER; it excludes FILE and --set");
     else if (again)
         return run_again(again, wishes);
     else if (line->count != 1)
-        command_complain("run wants %s; see launchdyn run --help", self->arguments);
+        command_complain("run requires %s; see launchdyn run --help", self->arguments);
     else
         return command_on_file(line->word[0], wishes->sets, run_noted, wishes);
     return EXIT_INPUT;
@@ -172,18 +172,16 @@ int command_run(const command *self, int argc, char **argv)
     const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
         {"out", 'o', OPTION_TEXT, &wishes.folder,
-         "Write summary.json, history.h5 and, where the place on the Earth is given, "
+         "Write summary.json, history.h5 and, if the scenario gives a position on the Earth, "
          "trajectories.kml into this folder",
          "DIR"},
         {"again", '\0', OPTION_TEXT, &again,
-         "In place of FILE: run what the results in this folder are of, from the texts that they "
-         "keep",
-         "FOLDER"},
+         "Repeat the run stored in FOLDER, bit for bit, in place of FILE", "FOLDER"},
         {"csv", '\0', OPTION_FLAG, &wishes.csv,
-         "Write history.csv there too and, where rockets fly on, flights.csv", NULL},
-        {"report", '\0', OPTION_FLAG, &wishes.report, "Write report.html there too", NULL},
-        {"json", '\0', OPTION_FLAG, &wishes.json,
-         "Print the summary as JSON, as summary.json has it", NULL},
+         "Also write history.csv and, for rockets in free flight, flights.csv", NULL},
+        {"report", '\0', OPTION_FLAG, &wishes.report, "Also write report.html", NULL},
+        {"json", '\0', OPTION_FLAG, &wishes.json, "Print the summary as JSON, as in summary.json",
+         NULL},
         COMMAND_STRICT(&wishes.strict),
         COMMAND_USUAL};
     command_line line;

@@ -41,8 +41,8 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
             wishes->shard, wishes->shards, (long long)counts.done, (long long)counts.failed,
             ld_visible_text(wishes->run.folder, folder, sizeof folder));
     if (!status && !command_is_quiet() && counts.look > 0)
-        printf("the stopping rule %s after %lld samples\n",
-               counts.enough ? "holds" : "does not hold", (long long)counts.samples);
+        printf("the stopping rule is %s after %lld samples\n", counts.enough ? "met" : "not met",
+               (long long)counts.samples);
     if (!status && !command_is_quiet() && !wishes->shards)
         status = ld_study_show(wishes->run.folder, NULL, stdout, &error);
     return status ? command_fail(status, &error) : 0;
@@ -74,7 +74,7 @@ static int study_do(ld_study *study, study_wishes *wishes)
     } else if (!code && wishes->run.folder) {
         code = study_run_all(study, wishes, ld_study_run);
     } else if (!code) {
-        command_complain("study wants --out DIR, the folder that keeps it");
+        command_complain("study requires --out DIR, the folder of the study");
         code = EXIT_INPUT;
     }
     ld_study_free(study);
@@ -99,7 +99,7 @@ static int study_again(const char *folder, study_wishes *wishes)
         return command_fail(status, &error);
     int code = EXIT_INPUT;
     if (!origin.source) {
-        command_complain("%s cannot be run again: its model was not read from a scenario", folder);
+        command_complain("%s cannot be repeated: its model was not read from a scenario", folder);
     } else if ((status = command_read_study_source(origin.source, &study)) != LD_OK) {
         code = command_code(status);
     } else {
@@ -122,15 +122,14 @@ static const char *wrong_to_show(const study_wishes *wishes)
 {
     const ld_study_view *view = &wishes->view;
     if (view->measured && (view->what || view->sensitivity || view->against))
-        return "--measured shows what its file has: neither --what nor --sensitivity nor --against "
-               "goes with it";
+        return "--measured excludes --what, --sensitivity and --against: its file names the "
+               "results";
     if (view->against && view->sensitivity)
-        return "--against and --sensitivity do not go together";
+        return "--against and --sensitivity exclude each other";
     if (wishes->footprint)
-        return "--footprint is an option of study export DIR";
+        return "--footprint requires study export DIR";
     if (wishes->hdf5 || (wishes->csv && !view->against))
-        return "--csv and --hdf5 are options of study export DIR, --csv besides of study show "
-               "--against";
+        return "--csv and --hdf5 require study export DIR, or --csv study show DIR --against";
     return NULL;
 }
 
@@ -167,10 +166,11 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
     if (strcmp(verb, "export") == 0 && (wishes->csv || wishes->hdf5 || wishes->footprint) && !same)
         return finish(export_files(folder, wishes, &error), &error, "exported", folder);
     if (strcmp(verb, "export") == 0)
-        command_complain(same ? "study export wants a file each for --csv, --hdf5 and --footprint"
-                              : "study export wants --csv FILE, --hdf5 FILE or --footprint FILE");
+        command_complain(
+            same ? "study export requires different files for --csv, --hdf5 and --footprint"
+                 : "study export requires --csv FILE, --hdf5 FILE or --footprint FILE");
     else
-        command_complain("study knows show DIR, export DIR and merge DIR, not %s", verb);
+        command_complain("study: expected show DIR, export DIR or merge DIR, found %s", verb);
     return EXIT_INPUT;
 }
 
@@ -182,7 +182,7 @@ static bool read_shard(const char *text, study_wishes *wishes)
         text[length] == '\0' && wishes->shards >= 1 && wishes->shard >= 1 &&
         wishes->shard <= wishes->shards)
         return true;
-    command_complain("--shard wants I/N, from 1/N to N/N, not %s", text);
+    command_complain("--shard: expected I/N, from 1/N to N/N, found %s", text);
     return false;
 }
 
@@ -191,21 +191,21 @@ static const char *wrong_to_run(const char *file, const char *again, const study
 {
     enum { MOST_THREADS = 1024 };
     if (again && (file || wishes->run.sets))
-        return "--again FOLDER repeats what is in FOLDER: neither words nor --set go with it";
+        return "--again FOLDER repeats the study stored in FOLDER; it excludes other words and "
+               "--set";
     if (again)
         file = "";
     if (strcmp(file, "show") == 0 || strcmp(file, "export") == 0 || strcmp(file, "merge") == 0)
-        return "study show, study export and study merge want DIR";
+        return "study show, study export and study merge require DIR";
     if (wishes->csv || wishes->hdf5 || wishes->footprint)
-        return "--csv, --hdf5 and --footprint are options of study export DIR";
+        return "--csv, --hdf5 and --footprint require study export DIR";
     const ld_study_view *view = &wishes->view;
     if (view->what || view->sensitivity || view->json || view->measured || view->against)
-        return "--what, --sensitivity, --json, --measured and --against are options of study show "
-               "DIR";
+        return "--what, --sensitivity, --json, --measured and --against require study show DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
-        return "--only and --shard do not go together";
+        return "--only and --shard exclude each other";
     if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
-        return "--jobs wants a number from 1 to 1024";
+        return "--jobs: expected a number from 1 to 1024";
     return NULL;
 }
 
@@ -217,27 +217,29 @@ int command_study(const command *self, int argc, char **argv)
     const command_option options[] = {
         STUDY_OPTIONS(&wishes),
         {"again", '\0', OPTION_TEXT, &again,
-         "In place of FILE: run the study that is in this folder, from the texts that it keeps",
-         "FOLDER"},
-        {"jobs", 'j', OPTION_INTEGER, &wishes.threads, "Samples that run side by side (1)", "N"},
+         "Repeat the study stored in FOLDER, bit for bit, in place of FILE", "FOLDER"},
+        {"jobs", 'j', OPTION_INTEGER, &wishes.threads, "Number of samples computed in parallel (1)",
+         "N"},
         {"only", '\0', OPTION_INTEGER, &wishes.only,
-         "Run sample N alone, with its history in DIR/sample-N", "N"},
-        {"shard", '\0', OPTION_TEXT, &shard,
-         "Run only the I-th of N parts of the study, for merge DIR", "I/N"},
-        {"what", 'w', OPTION_TEXT, &what, "Of show: these results, or all", "NAME,..."},
+         "Run sample N only, with its history in DIR/sample-N", "N"},
+        {"shard", '\0', OPTION_TEXT, &shard, "Run only part I of N of the study; then merge DIR",
+         "I/N"},
+        {"what", 'w', OPTION_TEXT, &what, "For show: results to print, or all", "NAME,..."},
         {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
-         "Of show: the share of the variance that each factor explains", NULL},
-        {"json", '\0', OPTION_FLAG, &json, "Of show: as JSON, in full precision", NULL},
+         "For show: share of the variance that each factor explains", NULL},
+        {"json", '\0', OPTION_FLAG, &json, "For show: print as JSON, in full precision", NULL},
         {"measured", '\0', OPTION_TEXT, &measured,
-         "Of show: its results beside the shots in this CSV file", "FILE"},
+         "For show: compare the results with the measured launches in this CSV file", "FILE"},
         {"against", '\0', OPTION_TEXT, &against,
-         "Of show: how far points are from this one, by number or KEY=VALUE,...", "POINT"},
+         "For show: differences of the other points from this one, given by number or "
+         "KEY=VALUE,...",
+         "POINT"},
         {"csv", '\0', OPTION_TEXT, &wishes.csv,
-         "Of export: the table as CSV; of show --against: what it shows", "FILE"},
-        {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "Of export: the table as HDF5", "FILE"},
+         "For export: write the table as CSV; for show --against: write the differences", "FILE"},
+        {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "For export: write the table as HDF5", "FILE"},
         {"footprint", '\0', OPTION_TEXT, &wishes.footprint,
-         "Of export: footprints, for range safety: where 95, 99 and 99.9 % of landings lie, as "
-         ".csv, .kml or .geojson",
+         "For export: write the footprints with 95, 99 and 99.9 % of the landing points, for range "
+         "safety, as .csv, .kml or .geojson",
          "FILE"},
         COMMAND_USUAL};
     command_line line;
@@ -255,7 +257,7 @@ int command_study(const command *self, int argc, char **argv)
         } else if (line.count == 2 && !again) {
             code = study_folder(file, line.word[1], &wishes);
         } else if (!again && line.count != 1) {
-            command_complain("study wants %s; see launchdyn study --help", self->arguments);
+            command_complain("study requires %s; see launchdyn study --help", self->arguments);
             code = EXIT_INPUT;
         } else if (wrong_to_run(file, again, &wishes)) {
             command_complain("%s", wrong_to_run(file, again, &wishes));

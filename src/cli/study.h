@@ -20,12 +20,8 @@ typedef struct study_wishes {
 
 // The options that they share; overrides and folder are those of `wishes`.
 #define STUDY_OPTIONS(wishes)                                                                      \
-    COMMAND_SETS(&(wishes)->run.sets), {"out",                                                     \
-                                        'o',                                                       \
-                                        OPTION_TEXT,                                               \
-                                        &(wishes)->run.folder,                                     \
-                                        "The folder that keeps the study",                         \
-                                        "DIR"},                                                    \
+    COMMAND_SETS(&(wishes)->run.sets),                                                             \
+        {"out", 'o', OPTION_TEXT, &(wishes)->run.folder, "Folder of the study", "DIR"},            \
         COMMAND_STRICT(&(wishes)->run.strict)
 
 // Prints notes on all points of the study (command_take_notes()).

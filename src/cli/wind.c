@@ -23,7 +23,7 @@ static int show_wind(const ld_model *model, void *data)
     if (!status && wishes->picture)
         status = ld_wind_view_draw(view, wishes->picture, &error);
     if (!status)
-        command_step("computed and wrote what was asked for");
+        command_step("computed and wrote the results");
     if (!status && !command_is_quiet())
         ld_wind_view_print(view, stdout);
     ld_wind_view_free(view);
@@ -36,21 +36,21 @@ int command_wind(const command *self, int argc, char **argv)
     const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
         {"out", 'o', OPTION_TEXT, &wishes.folder,
-         "Write wind-profile.csv and, where there are such, wind-gusts.csv, wind-turbulence.csv, "
-         "wind-spectrum.csv into this folder",
+         "Write wind-profile.csv and, if the wind has gusts or turbulence, wind-gusts.csv, "
+         "wind-turbulence.csv and wind-spectrum.csv into this folder",
          "DIR"},
         {"plot", 'p', OPTION_TEXT, &wishes.picture,
          "Draw them with gnuplot: FILE.svg, FILE.pdf or FILE.png", "FILE"},
         {"height", '\0', OPTION_METRES, &wishes.section.height,
          "Height of gusts and turbulence above ground, in metres (100)", "H"},
         {"top", '\0', OPTION_METRES, &wishes.section.top,
-         "Height up to which the profile goes, in metres (2000)", "H"},
+         "Largest height of the profile, in metres (2000)", "H"},
         {"length", '\0', OPTION_METRES, &wishes.section.length,
          "Length of the line through the turbulence, in metres (100 L_u)", "S"},
         {"step", '\0', OPTION_METRES, &wishes.section.step,
-         "From place to place on it, in metres (0.03 of the smaller length scale)", "DS"},
+         "Spacing of the points on that line, in metres (0.03 of the smaller length scale)", "DS"},
         {"rocket", '\0', OPTION_INTEGER, &wishes.section.rocket,
-         "Whose turbulence, by its place in the firing sequence (1)", "N"},
+         "Number of the rocket in the launch sequence whose turbulence is shown (1)", "N"},
         COMMAND_USUAL};
     int code = command_on_model(self, argc, argv, options, &wishes.sets, show_wind, &wishes);
     return code;

@@ -20,11 +20,11 @@ static const command study_command = {
     .name = "study",
     .program = "launchdyn-mpi",
     .arguments = "FILE",
-    .summary = "Run the samples of a study on all processes that mpirun has started",
-    .about = "Each sample goes to the next process that is free; the first one keeps the results "
-             "in DIR. They are those of launchdyn study, to the bit, and what one of both has "
-             "begun, the other goes on with.",
-    .examples = "mpirun -n 4 launchdyn-mpi study scenario.yaml --out out|Run or go on, on four "
+    .summary = "Run the samples of a study on all processes that mpirun started",
+    .about = "Each sample goes to the next free process; the first process stores the results in "
+             "DIR. They equal those of launchdyn study bit for bit, and each of both programs "
+             "continues a study of the other.",
+    .examples = "mpirun -n 4 launchdyn-mpi study scenario.yaml --out out|Run or continue on four "
                 "processes"};
 
 // The lowest number that any process gives.
@@ -77,7 +77,7 @@ static int read_everywhere(const char *file, char **sets, int process, ld_study 
         return command_fail(status, &error);
     if (is_everywhere(identity(*study)))
         return 0;
-    command_complain("the processes read different scenarios from %s, or are of different versions",
+    command_complain("the processes read different scenarios from %s, or have different versions",
                      file);
     return EXIT_INPUT;
 }
@@ -99,7 +99,7 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
 {
     ld_study *study;
     if (!wishes->run.folder) {
-        command_complain("study wants --out DIR, the folder that keeps it");
+        command_complain("study requires --out DIR, the folder of the study");
         return EXIT_INPUT;
     }
     int code = read_everywhere(file, wishes->run.sets, process, &study);
@@ -137,7 +137,7 @@ static int run_command(int argc, char **argv, int process)
     command_line line;
     int code = EXIT_INPUT;
     if (argc < 2 || strcmp(argv[1], "study") != 0) {
-        command_complain("launchdyn-mpi knows one command: study FILE --out DIR");
+        command_complain("launchdyn-mpi has one command: study FILE --out DIR");
         return EXIT_INPUT;
     }
     if (command_line_read(&line, &study_command, argc - 1, argv + 1, options, 1, &code)) {
@@ -166,7 +166,7 @@ static int take_part(void *data)
     if (!code && given >= MPI_THREAD_FUNNELED) {
         code = run_command(call->argc, call->argv, process);
     } else if (!code) {
-        command_complain("this MPI is made for programs without threads");
+        command_complain("this MPI library does not support threads");
         code = EXIT_SYSTEM;
     }
     MPI_Finalize();

@@ -756,7 +756,8 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     launch_state state, *self = &state;
     *count = *pole_count = 0;
     if (!model_has_launcher(simulation->model))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no modes");
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a scenario of flight only has no launcher and no modes");
     bool moving = simulation->launcher.base.kind->dynamics != NULL;
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)

@@ -171,9 +171,9 @@ static void test_a_study(void **state)
     expect_complaint("launchdyn study --again bad --out y", 2,
                      "bad/study.db is damaged: file is not a database\n");
     expect_complaint("launchdyn study --again t --out y --set gravity=1", 2,
-                     "neither words nor --set");
-    expect_complaint("launchdyn study show --again t", 2, "neither words nor --set");
-    expect_complaint("launchdyn study", 2, "study wants ");
+                     "it excludes other words and --set");
+    expect_complaint("launchdyn study show --again t", 2, "it excludes other words and --set");
+    expect_complaint("launchdyn study", 2, "study requires ");
 }
 
 // Results of another program are run all the same; one line says what is another.
@@ -196,8 +196,8 @@ static void test_another_program(void **state)
                      "that in summary.json\n");
     must("mv a/summary.json . && launchdyn run --again a --out b -q && mv summary.json a");
     assert_string_equal(shell.err,
-                        "launchdyn: note: a was computed otherwise, which may change the "
-                        "last digits: version 9.9.9, here 0.1.0\n");
+                        "launchdyn: warning: a was computed by another program or machine; the "
+                        "last digits may differ: version 9.9.9, here 0.1.0\n");
     must("cmp a/history.h5 b/history.h5 | grep -q differ; jq -S 'del(.program, .statistics, "
          ".files, .digest)' "
          "a/summary.json >a.json; jq -S 'del(.program, .statistics, .files, .digest)' "
@@ -238,15 +238,15 @@ static void test_damaged_and_foreign_folders(void **state)
     must("cp good/history.h5 a/history.h5");
     take_away("source");
     expect_complaint(AGAIN "a", 2,
-                     "a cannot be run again: its model was not read from a scenario\n");
+                     "a cannot be repeated: its model was not read from a scenario\n");
     // a scenario whose second file is not there
     must("launchdyn run examples/engine.yaml --out good -q && cp good/history.h5 a/history.h5");
     take_away("source/files/3");
     expect_complaint(AGAIN "a", 2,
                      "rocket.motor.thrust: file \"reference-motor.eng\" is not among "
                      "the texts that are kept\n");
-    expect_complaint(AGAIN "a examples/fixed.yaml", 2, "neither a FILE nor --set goes with it\n");
-    expect_complaint(AGAIN "a --set title=x", 2, "neither a FILE nor --set goes with it\n");
+    expect_complaint(AGAIN "a examples/fixed.yaml", 2, "it excludes FILE and --set\n");
+    expect_complaint(AGAIN "a --set title=x", 2, "it excludes FILE and --set\n");
     expect_complaint(AGAIN "good --csv", 2, "--csv needs --out DIR\n");
 }
 

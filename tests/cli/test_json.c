@@ -213,11 +213,11 @@ static void test_quiet_and_verbose(void **state)
                      0);
     static const char *const steps[] = {
         "launchdyn: read examples/fixed.yaml with 0 overrides: ",
-        "launchdyn: its start can be had: ",
+        "launchdyn: found the initial state: ",
         "launchdyn: found the modes of the tube: ",
-        "launchdyn: found those of the whole about its equilibrium: ",
+        "launchdyn: found the modes of the whole system about its equilibrium: ",
         "launchdyn: built the system: modes, coefficients, tables: ",
-        "launchdyn: ran the launch, from equilibrium to its end: ",
+        "launchdyn: ran the launch from the equilibrium to its end: ",
         "launchdyn: wrote r: ",
         "launchdyn: wrote r/report.html: ",
     };
@@ -230,7 +230,7 @@ static void test_quiet_and_verbose(void **state)
     assert_string_equal(shell.err, "");
     expect_complaint("launchdyn check -q examples/fixed.yaml --set rocket.mas=1", 2, "unknown key");
     expect_complaint("launchdyn check -qv examples/fixed.yaml", 2,
-                     "--quiet and --verbose do not go together");
+                     "--quiet and --verbose exclude each other");
 }
 
 // The same of the commands that print what they find, and of those that write a file: --quiet
@@ -402,7 +402,7 @@ static void test_study_sensitivity_and_ellipses(void **state)
                      0);
     assert_string_equal(shell.out, "[\"pitch_rate\",\"yaw_rate\"]\ntrue\n8\n");
     expect_complaint("launchdyn study examples/salvo.yaml --json --out x", 2,
-                     "are options of study show DIR");
+                     "require study show DIR");
 }
 
 // The same numbers as text and as JSON; a study without landings has none.
@@ -437,11 +437,11 @@ static void test_study_footprints(void **state)
                      0);
     assert_string_equal(shell.out, "[]\n");
     expect_complaint("launchdyn study show safe --footprint a.kml", 2,
-                     "--footprint is an option of study export DIR");
+                     "--footprint requires study export DIR");
     expect_complaint("launchdyn study examples/range-safety.yaml --footprint a.kml --out y", 2,
-                     "--footprint are options of study export DIR");
+                     "--footprint require study export DIR");
     expect_complaint("launchdyn study export safe --footprint a.csv --csv a.csv", 2,
-                     "a file each for");
+                     "different files for");
     expect_complaint("launchdyn study export safe --footprint a.json", 2,
                      "a file of footprints ends in .csv, .kml or .geojson");
     assert_int_equal(run("launchdyn study export safe --footprint b.geojson --csv b.csv; jq -c "

@@ -162,7 +162,7 @@ static void test_little_stack(void **state)
 {
     (void)state;
     expect_sentence("ulimit -s 256; launchdyn run examples/fixed.yaml", SYSTEM,
-                    "the stack is limited to 256 kB, and 512 kB are needed (ulimit -s 512)");
+                    "the stack is limited to 256 kB, expected at least 512 kB (ulimit -s 512)");
 #ifndef LD_SANITIZED // which take much of the stack for themselves
     assert_int_equal(
         run(STUDY "ulimit -s 512; launchdyn run examples/fixed.yaml --out a --report" QUICK " && "

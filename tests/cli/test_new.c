@@ -8,7 +8,7 @@ static void one(const char *guide, const char *base, double least, double most)
     char line[512];
     snprintf(line, sizeof line, "launchdyn new --guide %s --base %s --out a.yaml", guide, base);
     assert_int_equal(run(line), 0);
-    expect_in(shell.out, "a.yaml is written");
+    expect_in(shell.out, "Wrote a.yaml");
     assert_int_equal(run("launchdyn check --strict a.yaml"), 0);
     assert_string_equal(shell.err, "");
     expect_in(shell.out, strcmp(guide, "rail") == 0 ? "# guide: a rail" : "# guide: a bore");
@@ -75,17 +75,17 @@ static void test_refusals(void **state)
 {
     (void)state;
     expect_complaint("launchdyn new --guide tub", 2,
-                     "the guide is one of tube|rail, not \"tub\"; did you mean \"tube\"?\n");
+                     "--guide: expected one of tube|rail, found \"tub\"; did you mean \"tube\"?\n");
     assert_int_equal(
         run("touch names && ls >names && printf 'rail\\n' | script -qec 'launchdyn new' "
             "/dev/null; [ $? = 2 ] && ls | cmp - names"),
         0);
-    expect_in(shell.out, "the input ended before an answer: nothing is written");
+    expect_in(shell.out, "the input ended before an answer; no file is written");
     expect_complaint("launchdyn new --base boat", 2,
-                     "the base is one of fixed|vehicle|ship, not \"boat\"\n");
+                     "--base: expected one of fixed|vehicle|ship, found \"boat\"\n");
     assert_int_equal(run("echo mine >a.yaml"), 0);
     expect_complaint("launchdyn new --out a.yaml", 2,
-                     "a.yaml is there already: new overwrites nothing\n");
+                     "a.yaml exists already; choose another name, new never overwrites a file\n");
     assert_int_equal(run("cat a.yaml"), 0);
     assert_string_equal(shell.out, "mine\n");
     expect_complaint("launchdyn new --out none/a.yaml", 3,
@@ -94,7 +94,7 @@ static void test_refusals(void **state)
     expect_complaint("ulimit -f 1; launchdyn new --out b.yaml", 3, "cannot write b.yaml: File too");
     assert_int_equal(run("test -e b.yaml"), 1);
     expect_complaint("launchdyn new >/dev/full", 3, "cannot print: No space left on device");
-    expect_complaint("launchdyn new a b", 2, "new wants");
+    expect_complaint("launchdyn new a b", 2, "new requires");
 }
 
 int main(void)

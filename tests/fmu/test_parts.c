@@ -535,12 +535,12 @@ static void refuses(void **state)
     refused("launchdyn fmu export examples/salvo-marching.yaml --part launcher --out x.fmu",
             "firing: of a vehicle alone one tube launches, here ");
     refused("launchdyn fmu export examples/reference.yaml --part vehicel --out x.fmu",
-            "launchdyn: --part is all, vehicle or launcher, not \"vehicel\"; did you mean "
+            "launchdyn: --part: found \"vehicel\", expected all, vehicle or launcher; did you mean "
             "\"vehicle\"?");
     refused("launchdyn fmu export examples/fixed.yaml --ssp x.ssp",
             "base.kind: there is no vehicle");
     refused("launchdyn fmu export examples/reference.yaml --ssp x.ssp --part vehicle",
-            "--ssp is an archive of both parts: without --out and --part");
+            "--ssp exports both parts; it excludes --out and --part");
     assert_int_equal(run("ls | grep -c x[.]"), 1);
 }
 

@@ -158,7 +158,7 @@ class TestResult(Case):
         self.assertEqual(frequencies, sorted(frequencies))
         flight = ld.Scenario.read(EXAMPLES / "flight.yaml").simulation()
         self.assertEqual(flight.tube_modes(), [])
-        with self.assertRaisesRegex(ld.InputError, "a flight alone has no launcher"):
+        with self.assertRaisesRegex(ld.InputError, "a scenario of flight only has no launcher"):
             flight.system_modes()
 
 
