@@ -8,6 +8,9 @@
 #include "launch/launch_run.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_general.h"
+#include "systems/launching/launching_overall.h"
 
 enum { REPEATS = 41, EVALUATIONS = 2000, FEW_EVALUATIONS = 100 };
 
@@ -40,7 +43,10 @@ static void bench_evaluation(launch_state *launch, int contacts, const char *wha
     print(what, sample, REPEATS, 1e-9, "ns");
 }
 
-static void bench_form(launch_state *launch, ld_formulation form, const char *what)
+typedef launching_outcome evaluation(const launching_system *, const launching_input *,
+                                     const launching_phase *, const double *, launching_output *);
+
+static void bench_form(launch_state *launch, evaluation *evaluate, const char *what)
 {
     double y[LD_MAX_STATES], sample[REPEATS];
     ld_equilibrium_summary unused;
@@ -53,8 +59,7 @@ static void bench_form(launch_state *launch, ld_formulation form, const char *wh
     for (int r = 0; r < REPEATS; r++) {
         double start = now();
         for (int i = 0; i < FEW_EVALUATIONS; i++)
-            launching_evaluate_general(&launch->launcher.launching, form, &input.launching, &phase,
-                                       y, &out);
+            evaluate(&launch->launcher.launching, &input.launching, &phase, y, &out);
         sample[r] = (now() - start) / FEW_EVALUATIONS;
     }
     print(what, sample, REPEATS, 1e-9, "ns");
@@ -185,8 +190,8 @@ int main(void)
     bench_evaluation(&launch, 2, NULL); // the processor warms up
     bench_evaluation(&launch, 2, "evaluation, reduced, fast layout, 2 of 3 in contact");
     bench_evaluation(&launch, 3, "evaluation, reduced, fast layout, 3 of 3 in contact");
-    bench_form(&launch, LD_FORMULATION_REDUCED, "evaluation, reduced, general matrix");
-    bench_form(&launch, LD_FORMULATION_OVERALL, "evaluation, overall 19 x 19");
+    bench_form(&launch, launching_evaluate_general, "evaluation, reduced, general matrix");
+    bench_form(&launch, launching_evaluate_overall, "evaluation, overall 19 x 19");
     launch_state_end(&launch);
     bench_guides(&model);
     bench_run(&model);

@@ -8,6 +8,7 @@
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
 #include "state/launch_state.h"
+#include "systems/launching/launching_dynamics.h"
 
 enum { REPEATS = 11, PARTS = 41, EVALUATIONS = 2000 };
 

@@ -16,6 +16,7 @@
 #include "math/matrices/dense.h"
 #include "state/exit_figures.h"
 #include "state/linearise.h"
+#include "systems/launching/launching_kinematics.h"
 
 // Estimated errors are those of the lower order; those that kinks leave, which come and go between
 // two of its stages, are larger. So many times e are told: of 400 random launches 97 % are then

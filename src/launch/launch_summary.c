@@ -7,6 +7,8 @@
 #include "math/functions.h"
 #include "state/energy.h"
 #include "state/exit_figures.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_kinematics.h"
 
 void launch_record_exit(ld_run *run, double t, const double *landed)
 {

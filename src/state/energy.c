@@ -4,6 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "state/launch_state.h"
+#include "systems/launching/launching_figures.h"
+
 _Static_assert((int)LAUNCHER_MOST_WORKS <= (int)LD_MAX_WORKS, "works have no room");
 
 void simulation_energy(const launch_state *self, const launcher_input *input,

@@ -10,6 +10,8 @@
 #include "math/vectors/rotation_vector.h"
 #include "state/carried.h"
 #include "state/exit_figures.h"
+#include "state/launch_state.h"
+#include "systems/launching/launching_kinematics.h"
 
 enum { MAX_FREEDOMS = 12 + LD_MAX_MODAL + BASE_MOST_FREEDOMS };
 

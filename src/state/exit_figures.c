@@ -4,6 +4,8 @@
 #include "state/exit_figures.h"
 
 #include "math/functions.h"
+#include "state/launch_state.h"
+#include "systems/launching/launching_kinematics.h"
 
 direction_angles direction_angles_of(v3 d, v3 d_dot)
 {

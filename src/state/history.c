@@ -9,6 +9,9 @@
 #include "quantities/quantity_table.h"
 #include "state/energy.h"
 #include "state/exit_figures.h"
+#include "state/launch_state.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_kinematics.h"
 
 // What belongs to one adaptor; nothing touches where it has passed the tip.
 typedef struct instant_contact {

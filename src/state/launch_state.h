@@ -5,6 +5,8 @@
 
 #include "state/jets.h"
 #include "state/simulation.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_kinematics.h"
 
 // What the equations depend on beside the state and the system as it was built.
 typedef struct run_conditions {

@@ -10,6 +10,9 @@
 #include "math/matrices/general_eigen.h"
 #include "math/vectors/rotation_vector.h"
 #include "state/equilibrium.h"
+#include "state/launch_state.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_kinematics.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 // Eigenvalues below this modulus [1/s] belong to the neutral directions of a base that moves.

@@ -9,6 +9,9 @@
 #include "integration/exponential_steps.h"
 #include "math/matrices/exponential.h"
 #include "state/outside_steps.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_kinematics.h"
 
 // ---- the equations ----
 

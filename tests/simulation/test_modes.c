@@ -9,6 +9,7 @@
 #include "support/fresh_launch.h"
 #include "support/line_frequencies.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 

@@ -11,6 +11,7 @@
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_kinematics.h"
 
 static ld_model read_example(const char *file, const char *const *sets, size_t count)
 {

@@ -4,6 +4,8 @@
 
 #include "support/check.h"
 #include "support/launching_state.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_kinematics.h"
 
 launching_system *launching_system_of(const ld_model *model)
 {

@@ -5,6 +5,7 @@
 #include "integration/integrator.h"
 #include "support/dense_launch.h"
 #include "systems/launching/launching.h"
+#include "systems/launching/launching_kinematics.h"
 
 enum { RUN_STATES = 32 + 2 * LD_MAX_MODAL + POWER_COUNT };
 

@@ -7,6 +7,8 @@
 #include "support/dense_simulation.h"
 #include "support/draw.h"
 #include "systems/launching/launching.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_kinematics.h"
 
 typedef struct launching_case {
     double state[32 + 2 * LD_MAX_MODAL];

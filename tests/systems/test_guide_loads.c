@@ -8,6 +8,11 @@
 #include "support/launching_run.h"
 #include "support/launching_state.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_general.h"
+#include "systems/launching/launching_kinematics.h"
+#include "systems/launching/launching_overall.h"
 
 // A state with all that was found in it.
 typedef struct instant {
@@ -91,8 +96,8 @@ static void the_whole_tube_leaves_what_moves_the_tail(void **state)
     model.rocket.knob_angle = 0.4;
     ask_for(&model, 1, (double[]){0});
     check_balance(&model, launching_evaluate, 140, "reduced");
-    check_balance(&model, general, 140, "reduced from the general matrix");
-    check_balance(&model, overall, 140, "overall");
+    check_balance(&model, launching_evaluate_general, 140, "reduced from the general matrix");
+    check_balance(&model, launching_evaluate_overall, 140, "overall");
     model.tubes.modes.axial = 2;
     check_balance(&model, launching_evaluate, 70, "axial modes");
     model.tubes.modes.axial = 0;
@@ -109,7 +114,8 @@ static void the_whole_tube_leaves_what_moves_the_tail(void **state)
     model.rocket.lock.angle = 2.2;
     check_balance(&model, launching_evaluate, 70, "lock off the axis");
     model.tubes.slot.kind = LD_SLOT_NONE;
-    check_balance(&model, overall, 70, "no slot, the lock holds the roll, overall");
+    check_balance(&model, launching_evaluate_overall, 70,
+                  "no slot, the lock holds the roll, overall");
     model.rocket.lock = (ld_lock){.release_force = 1e4};
     model.tubes.guide = (ld_guide){.present = true,
                                    .form = LD_GUIDE_T_SLOT,
@@ -118,7 +124,7 @@ static void the_whole_tube_leaves_what_moves_the_tail(void **state)
     for (int i = 0; i < 3; i++)
         model.rocket.adaptor[i].clearance = NAN;
     check_balance(&model, launching_evaluate, 70, "T-slot beside the axis");
-    check_balance(&model, general, 70, "T-slot, from the general matrix");
+    check_balance(&model, launching_evaluate_general, 70, "T-slot, from the general matrix");
     model.tubes.guide =
         (ld_guide){.present = true,
                    .form = LD_GUIDE_TOWER,
@@ -128,7 +134,8 @@ static void the_whole_tube_leaves_what_moves_the_tail(void **state)
     model.rocket.adaptor_count = 2;
     model.rocket.contact.law = LD_CONTACT_IDEAL;
     check_balance(&model, launching_evaluate, 70, "ideal adaptors");
-    check_balance(&model, general, 70, "ideal adaptors, from the general matrix");
+    check_balance(&model, launching_evaluate_general, 70,
+                  "ideal adaptors, from the general matrix");
     reference_model_free(&model);
 }
 
@@ -144,8 +151,9 @@ static void clamps_recoil_and_pressure_leave_what_moves_the_tail(void **state)
     check_balance(&model, launching_evaluate, 70, "pressure");
     reference_recoil(&model);
     check_balance(&model, launching_evaluate, 70, "pressure and recoil");
-    check_balance(&model, general, 70, "pressure and recoil, from the general matrix");
-    check_balance(&model, overall, 70, "pressure and recoil, overall");
+    check_balance(&model, launching_evaluate_general, 70,
+                  "pressure and recoil, from the general matrix");
+    check_balance(&model, launching_evaluate_overall, 70, "pressure and recoil, overall");
     model.tubes.support[0].recoil.present = false;
     for (int i = 0; i < 3; i++) {
         char name[64];
@@ -154,7 +162,7 @@ static void clamps_recoil_and_pressure_leave_what_moves_the_tail(void **state)
         snprintf(name, sizeof name, "clamped %#x and %#x", clamped[i][0], clamped[i][1]);
         check_balance(&model, launching_evaluate, 70, name);
     }
-    check_balance(&model, general, 70, "the same, from the general matrix");
+    check_balance(&model, launching_evaluate_general, 70, "the same, from the general matrix");
     model.tubes.modes.axial = 2;
     check_balance(&model, launching_evaluate, 70, "the same, axial modes");
     reference_model_free(&model);
@@ -256,7 +264,7 @@ static void check_inertia_of_parts(bool apart)
     double worst_force = 0, worst_moment = 0;
     for (int k = 0; k < 20; k++) {
         instant now;
-        draw_instant(system, general, &seed, k, &now);
+        draw_instant(system, launching_evaluate_general, &seed, k, &now);
         for (int i = 0; i < STATIONS; i++) {
             part whole = part_beyond(system, &now, at[i]);
             launching_section section;

@@ -2,8 +2,13 @@
 #include <stdlib.h>
 
 #include "support/check.h"
+#include "support/evaluators.h"
 #include "support/launching_state.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_general.h"
+#include "systems/launching/launching_kinematics.h"
+#include "systems/launching/launching_overall.h"
 
 typedef struct agreement {
     double eta, V, slot, lock, contact, breech, base, crossflow;
@@ -57,9 +62,6 @@ static void compare(const launching_system *system, const launching_case *c,
     worst->base = fmax(worst->base,
                        relative3(dense->base_moment, out->base_moment, norm3(dense->base_moment)));
 }
-
-typedef launching_outcome (*evaluator)(const launching_system *, const launching_input *,
-                                       const launching_phase *, const double *, launching_output *);
 
 // Every other unlocked state is pressed on the breech, half of them behind the tube's rear end. At
 // half the laws' speeds the damping would cut the force off: these press on.
@@ -178,21 +180,13 @@ static void split_planes(ld_tubes *tubes)
     tubes->modes.damping = 0.02;
 }
 
-static launching_outcome general(const launching_system *system, const launching_input *input,
-                                 const launching_phase *phase, const double *state,
-                                 launching_output *out)
-{
-    return launching_evaluate_general(system, LD_FORMULATION_REDUCED, input, phase, state, out);
-}
-
 static double worst_condition;
 
 static launching_outcome overall(const launching_system *system, const launching_input *input,
                                  const launching_phase *phase, const double *state,
                                  launching_output *out)
 {
-    launching_outcome outcome =
-        launching_evaluate_general(system, LD_FORMULATION_OVERALL, input, phase, state, out);
+    launching_outcome outcome = launching_evaluate_overall(system, input, phase, state, out);
     assert_false(out->fell_back);
     worst_condition = fmax(worst_condition, out->condition);
     return outcome;
@@ -233,7 +227,7 @@ static void planes_equal_dense(void **state)
     model.tubes.tail.inertia[1] = 0.7;
     split_planes(&model.tubes);
     check_agreement(&model, launching_evaluate, 200, "reduced, planes out of proportion");
-    check_agreement(&model, general, 100, "general, planes out of proportion");
+    check_agreement(&model, launching_evaluate_general, 100, "general, planes out of proportion");
     check_agreement(&model, overall, 100, "overall, planes out of proportion");
     model.tubes.modes.bending = 3;
     check_agreement(&model, launching_evaluate, 100, "reduced, with 3 modes");
@@ -249,7 +243,7 @@ static void planes_equal_dense(void **state)
     model.rocket.adaptor_count = 2;
     model.rocket.contact.law = LD_CONTACT_IDEAL;
     check_agreement(&model, launching_evaluate, 100, "reduced, clamped, ideal adaptors");
-    check_agreement(&model, general, 100, "general, clamped, ideal adaptors");
+    check_agreement(&model, launching_evaluate_general, 100, "general, clamped, ideal adaptors");
     reference_model_free(&model);
 }
 
@@ -263,7 +257,7 @@ static void options_equal_dense(void **state)
     check_agreement(&model, launching_evaluate, 200, "reduced, axial modes");
     check_agreement(&model, overall, 200, "overall, axial modes");
     model.tubes.modes.axial = 0;
-    check_agreement(&model, general, 200, "reduced from the general matrix");
+    check_agreement(&model, launching_evaluate_general, 200, "reduced from the general matrix");
     model.tubes.modes.span = LD_SPAN_FREE_FREE;
     model.tubes.support[0].rotational_stiffness[1] = 5e5; // not isotropic
     model.tubes.point_mass_count = 1;
@@ -309,7 +303,7 @@ static void ideal_adaptors_equal_dense(void **state)
     model.rocket.adaptor[1] = model.rocket.adaptor[2];
     model.rocket.contact.law = LD_CONTACT_IDEAL;
     check_agreement(&model, launching_evaluate, 200, "ideal");
-    check_agreement(&model, general, 200, "ideal from the general matrix");
+    check_agreement(&model, launching_evaluate_general, 200, "ideal from the general matrix");
     check_agreement(&model, overall, 200, "ideal, overall");
     model.tubes.modes.axial = 2;
     check_agreement(&model, launching_evaluate, 200, "ideal, axial modes");
@@ -337,7 +331,7 @@ static void clamped_supports_equal_dense(void **state)
         snprintf(name, sizeof name, "clamped %#x and %#x", clamped[i][0], clamped[i][1]);
         check_agreement(&model, launching_evaluate, 200, name);
     }
-    check_agreement(&model, general, 200, "the same from the general matrix");
+    check_agreement(&model, launching_evaluate_general, 200, "the same from the general matrix");
     model.tubes.modes.axial = 2;
     check_agreement(&model, launching_evaluate, 100, "the same, axial modes");
     model.rocket.adaptor_count = 2;
@@ -406,7 +400,8 @@ static void air_on_the_emerged_part_equals_dense(void **state)
     model.rocket.aerodynamics.emerged.drag = 1.2;
     model.rocket.aerodynamics.emerged.diameter = 0.3;
     check_agreement(&model, launching_evaluate, 200, "air, reduced");
-    check_agreement(&model, general, 200, "air, reduced from the general matrix");
+    check_agreement(&model, launching_evaluate_general, 200,
+                    "air, reduced from the general matrix");
     check_agreement(&model, overall, 200, "air, overall");
     reference_model_free(&model);
 }
@@ -443,7 +438,8 @@ static void pressure_and_recoil_equal_dense(void **state)
                               .ambient = 1e5,
                               .scale = 1.2};
     check_agreement(&model, launching_evaluate, 60, "gas and recoil, reduced");
-    check_agreement(&model, general, 60, "gas and recoil, reduced from the general matrix");
+    check_agreement(&model, launching_evaluate_general, 60,
+                    "gas and recoil, reduced from the general matrix");
     check_agreement(&model, overall, 60, "gas and recoil, overall");
     pressure->form = LD_PRESSURE_OVER_TRAVEL;
     pressure->scale = 1.1;

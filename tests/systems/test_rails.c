@@ -9,6 +9,10 @@
 #include "support/launching_state.h"
 #include "support/random_model.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_general.h"
+#include "systems/launching/launching_kinematics.h"
+#include "systems/launching/launching_overall.h"
 
 // ---- random rails ----
 
@@ -257,7 +261,8 @@ static void shoes_equal_dense(void **state)
     (void)state;
     static const char *const form[] = {"listed surfaces", "T-slots", "towers"};
     static const char *const program[] = {"reduced", "from the general matrix", "overall"};
-    static const evaluator evaluate[] = {launching_evaluate, general, overall};
+    static const evaluator evaluate[] = {launching_evaluate, launching_evaluate_general,
+                                         launching_evaluate_overall};
     const char *asked = getenv("LD_RAIL_STATES");
     int states = asked ? atoi(asked) : 60, each = 5;
     uint64_t seed = 15, weather = 16;

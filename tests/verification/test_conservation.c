@@ -8,6 +8,9 @@
 #include "support/draw.h"
 #include "support/launching_run.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_kinematics.h"
+#include "systems/launching/launching_overall.h"
 
 // No supports, gravity, friction or damping. Either nothing touches (and the bore is wide: the
 // rocket flies on straight where the tube bends away), or the adaptors are held on the axis, by
@@ -286,8 +289,7 @@ static int rhs_of_y(double t, const double *state, double *state_dot, void *user
     launching_output out;
     memcpy(with_V, state, (size_t)at->count * sizeof(double));
     launching_run_set_speeds(run->system, with_V, state + at->V);
-    if (launching_evaluate_general(run->system, LD_FORMULATION_OVERALL, &run->input, &run->phase,
-                                   with_V, &out) ||
+    if (launching_evaluate_overall(run->system, &run->input, &run->phase, with_V, &out) ||
         out.fell_back)
         return -1;
     launching_rates(run->system, with_V, &out, true, state_dot);

@@ -9,6 +9,7 @@
 #include "support/launching_run.h"
 #include "support/launching_state.h"
 #include "support/tube_shape.h"
+#include "systems/launching/launching_dynamics.h"
 
 static ld_equilibrium_summary find_equilibrium(launch_state *launch, double *y)
 {

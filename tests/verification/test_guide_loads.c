@@ -8,6 +8,9 @@
 #include "support/fresh_launch.h"
 #include "support/launching_run.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_kinematics.h"
 
 static void ask_for(ld_model *model, int count, const double *at)
 {

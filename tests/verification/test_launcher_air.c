@@ -13,6 +13,7 @@
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_kinematics.h"
 
 static const double degree = 3.14159265358979323846 / 180;
 

@@ -9,6 +9,8 @@
 #include "support/dense_simulation.h"
 #include "support/launching_run.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_kinematics.h"
 
 static const double pi = 3.14159265358979323846;
 

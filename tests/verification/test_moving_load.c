@@ -8,6 +8,7 @@
 #include "support/check.h"
 #include "support/launching_run.h"
 #include "support/reference_model.h"
+#include "systems/launching/launching_kinematics.h"
 
 // Pins that hold rigidly in place of springs, an adaptor on the axis exactly.
 static void hold_rigidly(ld_model *model)

@@ -18,6 +18,8 @@
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
 #include "support/rigid_rest.h"
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_kinematics.h"
 
 static const double degree = 3.14159265358979323846 / 180;
 

@@ -11,6 +11,7 @@
 #include "support/launching_state.h"
 #include "support/reference_model.h"
 #include "systems/launching/launcher.h"
+#include "systems/launching/launching_dynamics.h"
 
 enum { STATES = LD_MAX_STATES };
 

@@ -3,6 +3,10 @@
 #include <assert.h>
 #include <string.h>
 
+#include "systems/launching/launching_dynamics.h"
+#include "systems/launching/launching_figures.h"
+#include "systems/launching/launching_overall.h"
+
 ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
                          ld_error *error)
 {
@@ -72,8 +76,7 @@ launching_outcome launcher_evaluate_tube(const launcher_system *self, ld_formula
                                          const double *state, launching_output *output)
 {
     if (formulation == LD_FORMULATION_OVERALL)
-        return launching_evaluate_general(&self->launching, formulation, input, phase, state,
-                                          output);
+        return launching_evaluate_overall(&self->launching, input, phase, state, output);
     return launching_evaluate(&self->launching, input, phase, state, output);
 }
 
