@@ -8,6 +8,7 @@
 #include "launch/launch_run.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "systems/launching/launching_dynamics.h"
 #include "systems/launching/launching_general.h"
 #include "systems/launching/launching_overall.h"

@@ -7,6 +7,7 @@
 #include "bench_sample.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "state/launch_state.h"
 #include "systems/launching/launching_dynamics.h"
 

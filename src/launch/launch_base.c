@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "launch/launch_run.h"
+#include "state/evaluation.h"
 
 static bool are_finite(const double *values, int count)
 {

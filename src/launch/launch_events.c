@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "launch/launch_run.h"
+#include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 
 static void pass_adaptor(ld_run *run, int i, double t, const double *y)

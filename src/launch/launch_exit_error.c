@@ -14,6 +14,7 @@
 #include "launch/launch_run.h"
 #include "math/functions.h"
 #include "math/matrices/dense.h"
+#include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "state/linearise.h"
 #include "systems/launching/launching_kinematics.h"

@@ -3,6 +3,7 @@
 #include "integration/step_limit.h"
 #include "launch/launch_run.h"
 #include "math/functions.h"
+#include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 
 ld_status launch_check_tube(ld_run *run, double t, const double *y)

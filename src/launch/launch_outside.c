@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "launch/launch_run.h"
+#include "state/evaluation.h"
 
 _Static_assert((int)EVENTS_MOST <= (int)LD_MAX_STATES, "more indicators than told");
 

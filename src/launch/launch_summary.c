@@ -6,6 +6,7 @@
 #include "launch/launch_run.h"
 #include "math/functions.h"
 #include "state/energy.h"
+#include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "systems/launching/launching_figures.h"
 #include "systems/launching/launching_kinematics.h"

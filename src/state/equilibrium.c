@@ -9,6 +9,7 @@
 #include "math/matrices/lapack.h"
 #include "math/vectors/rotation_vector.h"
 #include "state/carried.h"
+#include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "state/launch_state.h"
 #include "systems/launching/launching_kinematics.h"

@@ -8,6 +8,7 @@
 
 #include "quantities/quantity_table.h"
 #include "state/energy.h"
+#include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "state/launch_state.h"
 #include "systems/launching/launching_figures.h"

@@ -60,18 +60,11 @@ static inline bool launch_is_lit(const launch_state *self)
     return self->piece >= 0 || self->pressure_piece > 0;
 }
 
-// Thrust, pressure and mass at time t, and the base there at state y.
-void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input);
-
 // Puts tube and rocket on the base as it stands, straight and at rest.
 void simulation_straight(const launch_state *self, const base_frame *base, double *y);
 
 // Phase before ignition: rocket in the tube, lock closed, no adaptor beyond the tip; the breech
 // stands where the rocket starts.
 launching_phase simulation_start_phase(const launch_state *self);
-
-// Evaluates, and finds what the tube carries where that is asked for.
-launching_outcome simulation_loads(const launch_state *self, launcher_input *input, const double *y,
-                                   launcher_output *out, launching_loads *loads);
 
 #endif

@@ -10,6 +10,7 @@
 #include "math/matrices/general_eigen.h"
 #include "math/vectors/rotation_vector.h"
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "state/launch_state.h"
 #include "systems/launching/launching_dynamics.h"
 #include "systems/launching/launching_kinematics.h"

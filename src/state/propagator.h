@@ -50,9 +50,4 @@ bool propagator_project(propagator *self, double *y);
 const event_list *propagator_events(const propagator *self);
 void propagator_sizes(const propagator *self, double *size);
 
-// What the equations gave at (t, y): the latest evaluation where it is that of the same state under
-// the same conditions, else a new one.
-// NULL where they have no solution.
-const launcher_output *simulation_output(launch_state *self, double t, const double *y);
-
 #endif

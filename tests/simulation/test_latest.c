@@ -1,6 +1,7 @@
 // What the equations gave last is handed out again for the same state under the same conditions
 // alone: whatever changes, simulation_output gives what a new evaluation gives, to the bit.
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "state/propagator.h"
 #include "support/fresh_launch.h"
 #include "support/reference_model.h"

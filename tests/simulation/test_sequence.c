@@ -7,6 +7,7 @@
 
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"

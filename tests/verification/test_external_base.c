@@ -6,6 +6,7 @@
 #include "launch/launch_run.h"
 #include "launchdyn/run.h"
 #include "scenario/scenario.h"
+#include "state/evaluation.h"
 #include "support/check.h"
 #include "support/dense_launch.h"
 #include "support/launching_state.h"

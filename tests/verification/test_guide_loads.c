@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"
 #include "support/launching_run.h"

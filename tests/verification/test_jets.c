@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "state/propagator.h"
 #include "support/check.h"
 #include "support/dense_vehicle.h"

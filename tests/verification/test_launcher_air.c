@@ -5,6 +5,7 @@
 
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
+#include "state/evaluation.h"
 #include "state/linearise.h"
 #include "state/propagator.h"
 #include "support/check.h"
