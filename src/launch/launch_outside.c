@@ -5,6 +5,7 @@
 
 #include "launch/launch_run.h"
 #include "state/evaluation.h"
+#include "state/stepping/outside_steps.h"
 
 _Static_assert((int)EVENTS_MOST <= (int)LD_MAX_STATES, "more indicators than told");
 

@@ -5,7 +5,7 @@
 
 #include "launchdyn/run.h"
 #include "quantities/measuring.h"
-#include "state/propagator.h"
+#include "state/stepping/propagator.h"
 #include "systems/flight/flight.h"
 
 // At one instant.

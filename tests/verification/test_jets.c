@@ -4,7 +4,7 @@
 
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
-#include "state/propagator.h"
+#include "state/stepping/propagator.h"
 #include "support/check.h"
 #include "support/dense_vehicle.h"
 #include "support/fresh_launch.h"

@@ -1,8 +1,8 @@
 // Takes a launcher forward in time, step by step: all subsystems by one integrator, or each by its
 // own with exchanges at fixed instants (run.coupling; model.md section 2), or all by one outside,
-// of which only the points are told.
-#ifndef LD_SIMULATION_PROPAGATOR_H
-#define LD_SIMULATION_PROPAGATOR_H
+// of which only the points are told (outside_steps.h).
+#ifndef LD_STATE_STEPPING_PROPAGATOR_H
+#define LD_STATE_STEPPING_PROPAGATOR_H
 
 #include "integration/integrator.h"
 #include "state/event.h"
@@ -32,20 +32,7 @@ int64_t propagator_evaluations(const propagator *self);
 // As integrator_archive, into one of an equal launch in the same state.
 void propagator_archive(propagator *self, archive *bytes);
 
-// Of one whose steps are taken outside. Where its integrator is; then its time and its state are
-// these.
-void propagator_place(propagator *self, double t, const double *y);
-// A step ends there, once: whether an event lies on the way. LD_ERR_NUMERIC: the equations have no
-// solution.
-bool propagator_has_accepted(const propagator *self);
-ld_status propagator_accept(propagator *self, bool *crossed, ld_error *error);
-// What has happened at the step's end has happened; the next one begins.
-ld_status propagator_go_on(propagator *self, ld_error *error);
-// Takes out of the state there what it has drifted from where constraints hold it; false where that
-// is less than what the tolerances leave to it.
-bool propagator_project(propagator *self, double *y);
-
-// Of any: the events, and what an absolute tolerance of each state is for a tolerance of 1; 0: it
+// The events, and what an absolute tolerance of each state is for a tolerance of 1; 0: it
 // steers no step.
 const event_list *propagator_events(const propagator *self);
 void propagator_sizes(const propagator *self, double *size);

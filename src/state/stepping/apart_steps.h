@@ -1,0 +1,13 @@
+// Each subsystem of a vehicle by an integrator of its own, with exchanges at fixed instants
+// (run.coupling; model.md section 2).
+#ifndef LD_STATE_STEPPING_APART_STEPS_H
+#define LD_STATE_STEPPING_APART_STEPS_H
+
+#include "state/stepping/stepper.h"
+
+// Whether a launch asks for that.
+bool apart_steps_are_wanted(const launch_state *launch);
+
+extern const stepper apart_stepper;
+
+#endif
