@@ -12,7 +12,6 @@
 #include "integration/integrator.h"
 #include "integration/saved_state.h"
 #include "launchdyn/vehicle_run.h"
-#include "quantities/launch_quantities.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/launch_state.h"

@@ -2,7 +2,7 @@
 // alone: whatever changes, simulation_output gives what a new evaluation gives, to the bit.
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
-#include "state/propagator.h"
+#include "state/stepping/propagator.h"
 #include "support/fresh_launch.h"
 #include "support/reference_model.h"
 

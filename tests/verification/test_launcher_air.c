@@ -7,7 +7,7 @@
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/linearise.h"
-#include "state/propagator.h"
+#include "state/stepping/propagator.h"
 #include "support/check.h"
 #include "support/dense_flight.h"
 #include "support/draw.h"

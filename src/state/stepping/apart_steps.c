@@ -7,6 +7,7 @@
 #include "elements/held_wrench.h"
 #include "state/evaluation.h"
 #include "state/stepping/integrated_steps.h"
+#include "systems/launching/launching_dynamics.h"
 
 enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS + 1 };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
