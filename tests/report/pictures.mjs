@@ -1,0 +1,74 @@
+// Takes the pictures of docs/figures that show reports again, in some minutes:
+//   LD_SCREENSHOTS=docs/figures tests/report/browser pictures.mjs BUILD
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { drawn, example, folder, inBrowser, launchdyn, open, picture, runOf } from "./support.mjs";
+
+function studyOf(name, file, ...sets) {
+  const out = join(folder, name);
+  launchdyn("study", file, "--out", out, "--quiet", ...sets.flatMap((set) => ["--set", set]));
+  return out;
+}
+
+function reportOf(name, ...words) {
+  const file = join(folder, name);
+  launchdyn("report", ...words, "-o", file);
+  return file;
+}
+
+// A window as high as the picture, with what `top` names below the header, and the mouse over what `under` names.
+async function take(browser, name, file, { width, height, top, before, under }) {
+  const page = await open(browser, file, { width });
+  await page.setViewportSize({ width, height });
+  if (before) await page.evaluate(before);
+  if (top) await page.locator(top).evaluate((node) => {
+    scrollTo(0, node.getBoundingClientRect().top + scrollY - document.querySelector("header").offsetHeight - 8);
+  });
+  if (under) await page.locator(under).first().hover();
+  await drawn(page);
+  await picture(page, name);
+  await page.context().close();
+}
+
+// The first screen, 0.1 s after ignition.
+async function oneRun(browser) {
+  const { file } = runOf("reference.yaml");
+  await take(browser, "report.png", file, { width: 1400, height: 830, before: () => window.launchdyn.current.show(0.1, true) });
+}
+
+async function severalRuns(browser) {
+  const runs = ["stationary", "15-kmh", "30-kmh"].map((name) => runOf(`marching/firm-${name}.yaml`).out);
+  const page = reportOf("runs.html", ...runs);
+  await take(browser, "report-runs.png", page, { width: 1200, height: 545, top: "#launch-relative", under: "#launch-relative .u-over" });
+}
+
+// 10 000 flights with sensitivities; salvos at three speeds; shots beside two studies.
+async function studies(browser) {
+  const flight = join(folder, "flight-scattered.yaml");
+  writeFileSync(flight, `include: ${example("flight.yaml")}
+title: Flight, scattered
+scatter:
+  seed: 7
+  samples: 10000
+  factors:
+    rocket.motor.thrust_scale: {normal: 1 %, within: 3}
+    rocket.motor.misalignment.y: {normal: 0.5 mrad, within: 3}
+    rocket.motor.misalignment.z: {normal: 0.5 mrad, within: 3}
+`);
+  await take(browser, "report-study.png", reportOf("flights.html", studyOf("flights", flight)), { width: 1200, height: 545 });
+  const speeds = studyOf("speeds", example("salvo-marching.yaml"), "scatter.samples=10", "title=Ten salvos of 18 rockets at each speed");
+  await take(browser, "report-studies.png", reportOf("speeds.html", speeds), { width: 1280, height: 640, top: "#scatter" });
+  const salvo = studyOf("salvo", example("salvo.yaml"));
+  const same = studyOf("same", example("measured.yaml"), "scatter.seed=2026", "scatter.samples=10");
+  const from = process.cwd();
+  process.chdir(example(".")); // the page says where the shots lie
+  const measured = reportOf("measured.html", salvo, same, "--measured", "measured.csv");
+  process.chdir(from);
+  await take(browser, "report-measured.png", measured, { width: 1280, height: 1100, top: "#measured" });
+}
+
+await inBrowser(async (browser) => {
+  await oneRun(browser);
+  await severalRuns(browser);
+  await studies(browser);
+});
