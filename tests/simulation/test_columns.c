@@ -612,32 +612,40 @@ static void say_vehicle(instant *at, double power[LAUNCHER_MOST_WORKS])
 
 // ---- energies and works
 
-// The names in the order of launching_power, orientating_power and marching_power.
-static const char *const work_name[LAUNCHER_MOST_WORKS] = {
-    "thrust",
-    "gravity_rocket",
-    "contact_normal",
-    "contact_friction",
-    "slot",
-    "slot_friction",
-    "lock",
-    "support_damping",
-    "modal_damping",
-    "base",
-    "mass_change",
-    "crossflow",
-    "pressure",
-    "recoil",
-    "stabilisers",
-    "hinge_friction",
-    "gravity_platform",
-    "gravity_wheels",
-    "suspension_damping",
-    "tyre",
-    "tyre_side",
-    "drive",
-    "jet",
+#define BASE_WORK(place) [(int)POWER_COUNT + (int)(place)]
+#define WHEEL_WORK(place) [(int)POWER_COUNT + (int)ORIENTATING_POWERS + (int)(place)]
+static const char *const work_names[LAUNCHER_MOST_WORKS] = {
+    [POWER_THRUST] = "thrust",
+    [POWER_GRAVITY_ROCKET] = "gravity_rocket",
+    [POWER_CONTACT_NORMAL] = "contact_normal",
+    [POWER_CONTACT_FRICTION] = "contact_friction",
+    [POWER_SLOT] = "slot",
+    [POWER_SLOT_FRICTION] = "slot_friction",
+    [POWER_LOCK] = "lock",
+    [POWER_SUPPORT_DAMPING] = "support_damping",
+    [POWER_MODAL_DAMPING] = "modal_damping",
+    [POWER_BASE] = "base",
+    [POWER_MASS_CHANGE] = "mass_change",
+    [POWER_AIR] = "crossflow",
+    [POWER_PRESSURE] = "pressure",
+    [POWER_RECOIL] = "recoil",
+    BASE_WORK(ORIENTATING_STABILISER) = "stabilisers",
+    BASE_WORK(ORIENTATING_FRICTION) = "hinge_friction",
+    BASE_WORK(ORIENTATING_GRAVITY) = "gravity_platform",
+    WHEEL_WORK(MARCHING_GRAVITY) = "gravity_wheels",
+    WHEEL_WORK(MARCHING_SUSPENSION) = "suspension_damping",
+    WHEEL_WORK(MARCHING_TYRE) = "tyre",
+    WHEEL_WORK(MARCHING_SIDE) = "tyre_side",
+    WHEEL_WORK(MARCHING_DRIVE) = "drive",
+    BASE_WORK(VEHICLE_JET) = "jet",
 };
+
+static const char *work_name(int i)
+{
+    if (!work_names[i])
+        fail_msg("work %d has no name in work_names", i);
+    return work_names[i];
+}
 
 // Whether a run has work i.
 static bool has_work(const ld_model *model, int i)
@@ -689,7 +697,7 @@ static void say_energies(instant *at)
         char name[64];
         if (!has_work(run->model, i))
             continue;
-        snprintf(name, sizeof name, "work.%s", work_name[i]);
+        snprintf(name, sizeof name, "work.%s", work_name(i));
         balance -= vehicle && i == POWER_BASE ? 0 : column_value(book, name);
     }
     expect(book, "energy.residual", balance);
@@ -714,7 +722,7 @@ static void say_works(instant *at, const double *power)
             run->work[i] = -run->model->gravity * (sum[0] - run->height[0]);
         if (i == POWER_COUNT + ORIENTATING_POWERS + MARCHING_GRAVITY)
             run->work[i] = -run->model->gravity * (sum[1] - run->height[1]);
-        expect_of(&run->book, "work", work_name[i], run->work[i]);
+        expect_of(&run->book, "work", work_name(i), run->work[i]);
         run->power[i] = power[i];
     }
 }
