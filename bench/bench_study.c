@@ -117,7 +117,8 @@ static double share_in_samples(const ld_study *study)
     study_ledger ledger;
     make_folder(folder);
     double start = now(), inside = 0;
-    ledger_open(&ledger, study, folder, STORE_AHEAD, &options, &counts, &error);
+    const store_place place = {.folder = folder, .journal = STORE_AHEAD};
+    ledger_open(&ledger, study, &place, &options, &counts, &error);
     study_worker worker = start_worker(study);
     for (int64_t number; (number = ledger_next(&ledger)) != 0;) {
         double before = now();

@@ -19,9 +19,7 @@ typedef struct chart_page {
 // The values of one curve as they are drawn, and which of them are needed.
 typedef struct drawn_curve {
     size_t count;
-    double *x, *y;
-    char *keep;
-    size_t *stack;
+    plot_line line;
 } drawn_curve;
 
 static ld_status allocate(drawn_curve *drawn, const chart_page *page, ld_error *error)
@@ -31,11 +29,11 @@ static ld_status allocate(drawn_curve *drawn, const chart_page *page, ld_error *
         for (int j = 0; j < page->charts[i].count; j++)
             if (page->charts[i].curve[j].count > most)
                 most = page->charts[i].curve[j].count;
-    drawn->x = malloc((2 * most + 1) * sizeof(double));
-    drawn->y = drawn->x + most;
-    drawn->keep = malloc(most + 1);
-    drawn->stack = malloc((2 * most + 8) * sizeof(size_t));
-    if (!drawn->x || !drawn->keep || !drawn->stack)
+    drawn->line.x = malloc((2 * most + 1) * sizeof(double));
+    drawn->line.y = drawn->line.x + most;
+    drawn->line.keep = malloc(most + 1);
+    drawn->line.stack = malloc((2 * most + 8) * sizeof(size_t));
+    if (!drawn->line.x || !drawn->line.keep || !drawn->line.stack)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the charts");
     return LD_OK;
 }
@@ -45,14 +43,14 @@ static void set_values(drawn_curve *drawn, const chart *self, const chart_curve 
     drawn->count = curve->count;
     for (size_t i = 0; i < curve->count; i++) {
         double x = curve->x[i] * self->x_factor, y = curve->y[i] * self->y_factor;
-        drawn->x[i] = self->log_x ? log10(x) : x;
-        drawn->y[i] = self->log_y ? log10(y) : y;
+        drawn->line.x[i] = self->log_x ? log10(x) : x;
+        drawn->line.y[i] = self->log_y ? log10(y) : y;
     }
 }
 
 static bool drawable(const drawn_curve *drawn, size_t i)
 {
-    return isfinite(drawn->x[i]) && isfinite(drawn->y[i]);
+    return isfinite(drawn->line.x[i]) && isfinite(drawn->line.y[i]);
 }
 
 // Ranges of the curves that are not faint, with some room above and below.
@@ -64,8 +62,8 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
         set_values(drawn, self, &self->curve[j]);
         for (size_t i = 0; i < drawn->count; i++)
             if (!self->curve[j].faint && drawable(drawn, i)) {
-                x[0] = fmin(x[0], drawn->x[i]), x[1] = fmax(x[1], drawn->x[i]);
-                y[0] = fmin(y[0], drawn->y[i]), y[1] = fmax(y[1], drawn->y[i]);
+                x[0] = fmin(x[0], drawn->line.x[i]), x[1] = fmax(x[1], drawn->line.x[i]);
+                y[0] = fmin(y[0], drawn->line.y[i]), y[1] = fmax(y[1], drawn->line.y[i]);
             }
     }
     double room = fmax(0.06 * (y[1] - y[0]), 1e-9 * fmax(fabs(y[0]), fabs(y[1])));
@@ -81,10 +79,10 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
 }
 
 // Each run of drawable points becomes a line; an empty line of data parts them.
-static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, const chart *self,
-                       double x_span, double y_span)
+static void write_data(FILE *script, size_t index, int j, const drawn_curve *drawn,
+                       const chart *self)
 {
-    memset(drawn->keep, 0, drawn->count);
+    memset(drawn->line.keep, 0, drawn->count);
     char block[48];
     int lines = 0;
     snprintf(block, sizeof block, "$c%zud%d", index, j);
@@ -95,9 +93,9 @@ static void write_data(FILE *script, size_t index, int j, drawn_curve *drawn, co
         size_t last = first;
         while (last + 1 < drawn->count && drawable(drawn, last + 1))
             last++;
-        plot_thin(drawn->x, drawn->y, x_span, y_span, first, last, drawn->keep, drawn->stack);
+        plot_thin(&drawn->line, first, last);
         for (size_t i = first; i <= last; i++)
-            if (drawn->keep[i]) {
+            if (drawn->line.keep[i]) {
                 fprintf(script, "%.6g %.6g\n", self->curve[j].x[i] * self->x_factor,
                         self->curve[j].y[i] * self->y_factor);
                 lines++;
@@ -115,13 +113,13 @@ static void write_faint_label(FILE *script, const drawn_curve *drawn, const char
 {
     const char *label = self->curve[j].label;
     for (size_t i = *label ? drawn->count : 0; i-- > 0;)
-        if (drawable(drawn, i) && drawn->x[i] >= x[0] && drawn->x[i] <= x[1] &&
-            drawn->y[i] >= y[0] && drawn->y[i] <= y[1]) {
+        if (drawable(drawn, i) && drawn->line.x[i] >= x[0] && drawn->line.x[i] <= x[1] &&
+            drawn->line.y[i] >= y[0] && drawn->line.y[i] <= y[1]) {
             fputs("set label ", script);
             plot_write_quoted(script, label);
             fprintf(script, " at %.6g,%.6g right offset 0,0.9 font ',9' tc rgb '#909090'\n",
-                    self->log_x ? pow(10, drawn->x[i]) : drawn->x[i],
-                    self->log_y ? pow(10, drawn->y[i]) : drawn->y[i]);
+                    self->log_x ? pow(10, drawn->line.x[i]) : drawn->line.x[i],
+                    self->log_y ? pow(10, drawn->line.y[i]) : drawn->line.y[i]);
             return;
         }
 }
@@ -171,9 +169,11 @@ static void write_chart(FILE *script, const chart *self, size_t index, drawn_cur
     double x[2], y[2];
     set_ranges(drawn, self, x, y);
     fputs("unset label\n", script);
+    drawn->line.x_span = x[1] - x[0];
+    drawn->line.y_span = y[1] - y[0];
     for (int j = 0; j < self->count; j++) {
         set_values(drawn, self, &self->curve[j]);
-        write_data(script, index, j, drawn, self, x[1] - x[0], y[1] - y[0]);
+        write_data(script, index, j, drawn, self);
         if (self->curve[j].faint)
             write_faint_label(script, drawn, self, j, x, y);
     }
@@ -214,9 +214,9 @@ static ld_status write_charts(FILE *script, const void *what, plot_format format
         fputs("unset multiplot\nunset output\n", script);
         numeric_locale_leave(before);
     }
-    free(drawn.x);
-    free(drawn.keep);
-    free(drawn.stack);
+    free(drawn.line.x);
+    free(drawn.line.keep);
+    free(drawn.line.stack);
     return status;
 }
 

@@ -156,9 +156,16 @@ void plot_end_data(FILE *script, const char *block, int lines);
 // Text between quotes of gnuplot, as a terminal may show it.
 void plot_write_quoted(FILE *script, const char *text);
 
-// Marks in `keep` the points from first to last that a curve needs to be within 1/3000 of a panel
-// of the spans; stack has room for 2 count + 8.
-void plot_thin(const double *x, const double *y, double x_span, double y_span, size_t first,
-               size_t last, char *keep, size_t *stack);
+// A curve on a panel of these spans.
+typedef struct plot_line {
+    double *x, *y; // [count]
+    double x_span, y_span;
+    char *keep;    // [count] which points are needed
+    size_t *stack; // [2 count + 8]
+} plot_line;
+
+// Marks in `keep` the points from first to last that the curve needs to be within 1/3000 of the
+// panel.
+void plot_thin(const plot_line *line, size_t first, size_t last);
 
 #endif

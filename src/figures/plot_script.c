@@ -349,6 +349,12 @@ static void write_curve(plot_drawing *drawing, int curve)
     size_t rows = drawing->curve[curve].source->history->rows;
     set_points(drawing, &drawing->curve[curve]);
     memset(drawing->keep, 0, rows);
+    const plot_line line = {.x = drawing->x,
+                            .y = drawing->y,
+                            .x_span = drawing->x_range[1] - drawing->x_range[0],
+                            .y_span = drawing->y_range[1] - drawing->y_range[0],
+                            .keep = drawing->keep,
+                            .stack = drawing->stack};
     char block[32];
     int lines = 0;
     snprintf(block, sizeof block, "$p%dc%d", drawing->index, curve);
@@ -359,9 +365,7 @@ static void write_curve(plot_drawing *drawing, int curve)
         size_t last = first;
         while (last + 1 < rows && drawable(drawing, last + 1))
             last++;
-        plot_thin(drawing->x, drawing->y, drawing->x_range[1] - drawing->x_range[0],
-                  drawing->y_range[1] - drawing->y_range[0], first, last, drawing->keep,
-                  drawing->stack);
+        plot_thin(&line, first, last);
         for (size_t i = first; i <= last; i++)
             if (drawing->keep[i]) {
                 fprintf(drawing->script, "%.8g %.8g\n", drawing->x[i], drawing->y[i]);

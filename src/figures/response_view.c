@@ -747,7 +747,8 @@ static void table_add(table *self, const char *name, const char *of, const char 
 static ld_status table_write(const table *self, const char *folder, const char *file, size_t rows,
                              ld_error *error)
 {
-    return columns_write(folder, file, self->column, self->value, self->width, rows, error);
+    const number_columns columns = {self->width, rows, self->column, self->value};
+    return columns_write(folder, file, &columns, error);
 }
 
 static ld_status write_frequencies(const ld_response_view *view, const char *folder,

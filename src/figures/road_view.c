@@ -247,22 +247,20 @@ void ld_road_view_print(const ld_road_view *view, FILE *stream)
 
 ld_status ld_road_view_write(const ld_road_view *view, const char *folder, ld_error *error)
 {
-    static const ld_column profile[] = {
+    static const ld_column places[] = {
         {.name = "x", .unit = "m"}, {.name = "left", .unit = "m"}, {.name = "right", .unit = "m"}};
-    static const ld_column spectrum[] = {{.name = "from", .unit = "1/m"},
-                                         {.name = "to", .unit = "1/m"},
-                                         {.name = "left", .unit = "m3"},
-                                         {.name = "right", .unit = "m3"},
-                                         {.name = "class", .unit = "m3"}};
-    ld_status status = columns_write(
-        folder, "road.csv", profile,
-        (const double *const[]){view->x, view->height[0], view->height[1]}, 3, view->count, error);
-    if (!status)
-        status = columns_write(folder, "road-spectrum.csv", spectrum,
-                               (const double *const[]){view->edge, view->edge + 1, view->density[0],
-                                                       view->density[1], view->line},
-                               is_random(view->model) ? 5 : 4, view->bands, error);
-    return status;
+    static const ld_column bands[] = {{.name = "from", .unit = "1/m"},
+                                      {.name = "to", .unit = "1/m"},
+                                      {.name = "left", .unit = "m3"},
+                                      {.name = "right", .unit = "m3"},
+                                      {.name = "class", .unit = "m3"}};
+    const double *const profile[] = {view->x, view->height[0], view->height[1]};
+    const double *const spectrum[] = {view->edge, view->edge + 1, view->density[0],
+                                      view->density[1], view->line};
+    const number_columns of_places = {3, view->count, places, profile};
+    const number_columns of_bands = {is_random(view->model) ? 5 : 4, view->bands, bands, spectrum};
+    ld_status status = columns_write(folder, "road.csv", &of_places, error);
+    return status ? status : columns_write(folder, "road-spectrum.csv", &of_bands, error);
 }
 
 // ---- as charts ----

@@ -287,21 +287,31 @@ void ld_wind_view_print(const ld_wind_view *view, FILE *stream)
 
 // ---- as files ----
 
+// A file of a series: what it runs over, names of the wind's components.
+typedef struct series_file {
+    const char *name, *over, *unit;
+    const char *const *axis; // [AXES]
+} series_file;
+
 static ld_status write_series(const ld_wind_view *view, const wind_series *series,
-                              const char *folder, const char *name, const char *over,
-                              const char *unit, const char *const axis[AXES], ld_error *error)
+                              const series_file *file, const char *folder, ld_error *error)
 {
-    const ld_column columns[] = {
-        {.name = over, .unit = unit},       {.name = axis[0], .unit = "m/s"},
-        {.name = axis[1], .unit = "m/s"},   {.name = axis[2], .unit = "m/s"},
-        {.name = "L_u", .unit = "m"},       {.name = "L_w", .unit = "m"},
-        {.name = "sigma_u", .unit = "m/s"}, {.name = "sigma_w", .unit = "m/s"}};
+    const char *const *axis = file->axis;
+    const ld_column columns[] = {{.name = file->over, .unit = file->unit},
+                                 {.name = axis[0], .unit = "m/s"},
+                                 {.name = axis[1], .unit = "m/s"},
+                                 {.name = axis[2], .unit = "m/s"},
+                                 {.name = "L_u", .unit = "m"},
+                                 {.name = "L_w", .unit = "m"},
+                                 {.name = "sigma_u", .unit = "m/s"},
+                                 {.name = "sigma_w", .unit = "m/s"}};
     const double *values[] = {series->s,       series->v[0],    series->v[1],    series->v[2],
                               view->scales[0], view->scales[1], view->scales[2], view->scales[3]};
     if (!series->count)
         return LD_OK;
     size_t width = series == &view->profile && view->turbulence.count ? 8 : 4;
-    return columns_write(folder, name, columns, values, width, series->count, error);
+    const number_columns all = {width, series->count, columns, values};
+    return columns_write(folder, file->name, &all, error);
 }
 
 static ld_status write_spectrum(const ld_wind_view *view, const char *folder, ld_error *error)
@@ -316,7 +326,8 @@ static ld_status write_spectrum(const ld_wind_view *view, const char *folder, ld
                               view->density[2], view->line[0],  view->line[1],    view->line[2]};
     if (!view->turbulence.count)
         return LD_OK;
-    return columns_write(folder, "wind-spectrum.csv", columns, values, 8, view->bands, error);
+    const number_columns all = {8, view->bands, columns, values};
+    return columns_write(folder, "wind-spectrum.csv", &all, error);
 }
 
 ld_status ld_wind_view_write(const ld_wind_view *view, const char *folder, ld_error *error)
@@ -324,13 +335,13 @@ ld_status ld_wind_view_write(const ld_wind_view *view, const char *folder, ld_er
     static const char *const inertial[AXES] = {"x", "y", "z"};
     const char *axis[AXES] = {axis_name(view, 0), axis_name(view, 1), axis_name(view, 2)};
     const char *over = view->model->axes == LD_WIND_GEOGRAPHIC ? "altitude" : "height";
-    ld_status status =
-        write_series(view, &view->profile, folder, "wind-profile.csv", over, "m", axis, error);
-    if (!status)
-        status = write_series(view, &view->gusts, folder, "wind-gusts.csv", "t", "s", axis, error);
-    if (!status)
-        status = write_series(view, &view->turbulence, folder, "wind-turbulence.csv", "distance",
-                              "m", inertial, error);
+    const wind_series *const series[] = {&view->profile, &view->gusts, &view->turbulence};
+    const series_file file[] = {{"wind-profile.csv", over, "m", axis},
+                                {"wind-gusts.csv", "t", "s", axis},
+                                {"wind-turbulence.csv", "distance", "m", inertial}};
+    ld_status status = LD_OK;
+    for (size_t i = 0; i < sizeof file / sizeof *file && !status; i++)
+        status = write_series(view, series[i], &file[i], folder, error);
     return status ? status : write_spectrum(view, folder, error);
 }
 

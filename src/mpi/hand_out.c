@@ -113,7 +113,8 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
         fputs("launchdyn-mpi: no memory for the records of samples\n", stderr);
         MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     }
-    ledger_open(&ledger, study, folder, STORE_ROLLBACK, options, counts, error);
+    const store_place place = {folder, options->shard, options->shards, STORE_ROLLBACK};
+    ledger_open(&ledger, study, &place, options, counts, error);
     // MPI is this thread's; alone, or without a second one, it runs samples after it has served
     bool second = all.processes > 1 && worker_start(&worker, &ledger) == 0;
     serve(&all);

@@ -19,19 +19,19 @@ static ld_status make_folder(const char *folder, ld_error *error)
     return status;
 }
 
-static ld_status write_file(const char *path, const ld_column *columns, const double *const *values,
-                            size_t width, size_t rows, ld_error *error)
+static ld_status write_file(const char *path, const number_columns *columns, ld_error *error)
 {
+    const size_t width = columns->width;
     history_csv *csv = NULL;
     ld_status status = history_csv_create(path, &csv, error);
     if (status)
         return status;
     double *row = malloc(width * sizeof *row);
-    status = row ? history_csv_begin(csv, columns, width, error)
+    status = row ? history_csv_begin(csv, columns->column, width, error)
                  : ld_fail(error, LD_ERR_MEMORY, "no memory for a row of %zu columns", width);
-    for (size_t i = 0; i < rows && !status; i++) {
+    for (size_t i = 0; i < columns->rows && !status; i++) {
         for (size_t j = 0; j < width; j++)
-            row[j] = values[j][i];
+            row[j] = columns->value[j][i];
         status = history_csv_row(csv, row, width, error);
     }
     free(row);
@@ -39,8 +39,8 @@ static ld_status write_file(const char *path, const ld_column *columns, const do
     return status ? status : closed;
 }
 
-ld_status columns_write(const char *folder, const char *name, const ld_column *columns,
-                        const double *const *values, size_t width, size_t rows, ld_error *error)
+ld_status columns_write(const char *folder, const char *name, const number_columns *columns,
+                        ld_error *error)
 {
     char path[4096];
     part_file part;
@@ -51,6 +51,6 @@ ld_status columns_write(const char *folder, const char *name, const ld_column *c
         status = part_file_begin(&part, path, error);
     if (status)
         return status;
-    status = write_file(part.path, columns, values, width, rows, error);
+    status = write_file(part.path, columns, error);
     return part_file_end(&part, status, error);
 }

@@ -7,9 +7,14 @@
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
 
-// Writes the file `name` in the folder, which is made where it is not there: `width` columns with
-// `rows` values each.
-ld_status columns_write(const char *folder, const char *name, const ld_column *columns,
-                        const double *const *values, size_t width, size_t rows, ld_error *error);
+typedef struct number_columns {
+    size_t width, rows;
+    const ld_column *column;    // [width]
+    const double *const *value; // [width][rows]
+} number_columns;
+
+// Writes the file `name` in the folder, which is made where it is not there.
+ld_status columns_write(const char *folder, const char *name, const number_columns *columns,
+                        ld_error *error);
 
 #endif

@@ -169,7 +169,8 @@ static void read_data(void)
     for (int i = 0; i < data.point_count && i < 8; i++)
         read_point(&data, &data.point[i]);
     for (int i = 0; i < data.column_count && i < 4; i++)
-        must_say(study_data_half_width(&data, &data.column[i], LD_STATISTIC_MEAN, false, 0, &half,
+        must_say(study_data_half_width(&data, &data.column[i],
+                                       &(ld_until){.statistic = LD_STATISTIC_MEAN}, 0, &half,
                                        &error),
                  &error);
     study_data_close(&data);

@@ -283,16 +283,16 @@ static void test_pairs(void **state)
     ld_error error;
     const char *nearest;
     const study_column *column = study_data_find(&data, "downrange", &nearest);
-    assert_int_equal(against_read_pairs(&data, &data.point[1], &data.point[0], &column, 1, values,
-                                        &pairs, &error),
+    assert_int_equal(against_read_pairs(&(paired_points){&data, &data.point[1], &data.point[0]},
+                                        &column, 1, values, &pairs, &error),
                      LD_OK);
     assert_int_equal(pairs.count, 3);
     static const double expected[2][3] = {{11, 22, 33}, {10, 20, 30}};
     assert_memory_equal(pairs.value[0], expected[0], sizeof expected[0]);
     assert_memory_equal(pairs.reference[0], expected[1], sizeof expected[1]);
     assert_true(pairs.sample[0] == pairs.sample[1] && pairs.sample[1] != pairs.sample[2]);
-    assert_int_equal(against_read_pairs(&data, &data.point[2], &data.point[1], &column, 1, values,
-                                        &pairs, &error),
+    assert_int_equal(against_read_pairs(&(paired_points){&data, &data.point[2], &data.point[1]},
+                                        &column, 1, values, &pairs, &error),
                      LD_OK);
     assert_true(pairs.count == 2 && pairs.value[0][1] == 41 && pairs.reference[0][1] == 44);
     for (int k = 0; k < 2; k++)
@@ -321,15 +321,16 @@ static void test_common_numbers(void **state)
     for (int i = data.result_count; i < data.column_count; i++) {
         const study_column *column = &data.column[i];
         for (int p = 1; p < 4; p++) {
-            against_read_pairs(&data, &data.point[p], &data.point[0], &column, 1, values, &pairs,
-                               &error);
+            against_read_pairs(&(paired_points){&data, &data.point[p], &data.point[0]}, &column, 1,
+                               values, &pairs, &error);
             assert_int_equal(pairs.count, 6);
             assert_memory_equal(pairs.value[0], pairs.reference[0], 6 * sizeof(double));
             assert_true(pairs.value[0][0] != pairs.value[0][5]);
         }
     }
     const study_column *speed = study_data_find(&data, "muzzle_speed", &nearest);
-    against_read_pairs(&data, &data.point[2], &data.point[0], &speed, 1, values, &pairs, &error);
+    against_read_pairs(&(paired_points){&data, &data.point[2], &data.point[0]}, &speed, 1, values,
+                       &pairs, &error);
     for (int i = 0; i < 6; i++)
         assert_true(pairs.value[0][i] < pairs.reference[0][i]); // the heavier ones
     for (int k = 0; k < 2; k++)

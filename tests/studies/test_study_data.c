@@ -185,9 +185,9 @@ static double half_width(const study_data *data, ld_statistic statistic, bool re
 {
     double half;
     ld_error error;
-    assert_int_equal(study_data_half_width(data, column(data, "t_rear"), statistic, relative, last,
-                                           &half, &error),
-                     LD_OK);
+    const ld_until rule = {.statistic = statistic, .relative = relative};
+    assert_int_equal(
+        study_data_half_width(data, column(data, "t_rear"), &rule, last, &half, &error), LD_OK);
     return half;
 }
 

@@ -178,10 +178,12 @@ static void test_until(void **state)
     for (int64_t n = 0; (n = until_next_look(&ld_study_model(study)->scatter, n)) < last;)
         earlier = n;
     assert_true(earlier > 0);
-    assert_int_equal(
-        study_data_half_width(&data, t_rear, LD_STATISTIC_MEAN, false, 2 * last, &half, &error),
-        LD_OK);
-    assert_int_equal(study_data_half_width(&data, t_rear, LD_STATISTIC_MEAN, false, 2 * earlier,
+    assert_int_equal(study_data_half_width(&data, t_rear,
+                                           &(ld_until){.statistic = LD_STATISTIC_MEAN}, 2 * last,
+                                           &half, &error),
+                     LD_OK);
+    assert_int_equal(study_data_half_width(&data, t_rear,
+                                           &(ld_until){.statistic = LD_STATISTIC_MEAN}, 2 * earlier,
                                            &before, &error),
                      LD_OK);
     study_data_close(&data);

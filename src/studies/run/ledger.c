@@ -140,23 +140,21 @@ static int wait_for_reader(void *self, int count)
     return ledger_goes_on(self);
 }
 
-void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
-                 store_journal journal, const ld_study_options *options, ld_study_counts *counts,
-                 ld_error *error)
+void ledger_open(study_ledger *self, const ld_study *study, const store_place *place,
+                 const ld_study_options *options, ld_study_counts *counts, ld_error *error)
 {
-    int64_t shards = options->shards > 0 ? options->shards : 1;
+    int64_t shards = place->shards > 0 ? place->shards : 1;
     *self = (study_ledger){.options = options,
                            .counts = counts,
                            .study = study,
-                           .folder = folder,
-                           .next = options->shards > 0 ? options->shard : 1,
+                           .folder = place->folder,
+                           .next = place->shards > 0 ? place->shard : 1,
                            .step = shards,
                            .last = study->samples,
                            .error = error,
                            .at_work = PTHREAD_MUTEX_INITIALIZER};
     *counts = (ld_study_counts){0};
-    ld_status status =
-        store_open(&self->store, folder, options->shard, options->shards, study, journal, error);
+    ld_status status = store_open(&self->store, place, study, error);
     if (!status) {
         self->open = true;
         sqlite3_busy_handler(self->store.database, wait_for_reader, self);

@@ -29,9 +29,8 @@ typedef struct study_ledger {
 
 // Opens the folder, which it may make; error and counts are written to until it is closed. Where
 // this fails the ledger is there all the same and hands out nothing.
-void ledger_open(study_ledger *self, const ld_study *study, const char *folder,
-                 store_journal journal, const ld_study_options *options, ld_study_counts *counts,
-                 ld_error *error);
+void ledger_open(study_ledger *self, const ld_study *study, const store_place *place,
+                 const ld_study_options *options, ld_study_counts *counts, ld_error *error);
 // @return LD_OK: all samples are kept; LD_ERR_INTERRUPTED; or what went wrong first
 ld_status ledger_close(study_ledger *self);
 

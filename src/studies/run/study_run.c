@@ -33,8 +33,9 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
         status = check_shard(study, options, error);
     if (status)
         return status;
-    ledger_open(&ledger, study, folder, options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD, options,
-                counts, error);
+    const store_place place = {folder, options->shard, options->shards,
+                               options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD};
+    ledger_open(&ledger, study, &place, options, counts, error);
     worker_run_side_by_side(&ledger, options->threads);
     return ledger_close(&ledger);
 }

@@ -24,8 +24,7 @@ static ld_status holds_for(const study_data *data, const ld_until *until, int64_
     const study_column *column = study_data_find(data, until->result, &nearest);
     if (!column)
         return ld_fail(error, LD_ERR_INPUT, "until: studies keep no result %s", until->result);
-    ld_status status =
-        study_data_half_width(data, column, until->statistic, until->relative, last, &half, error);
+    ld_status status = study_data_half_width(data, column, until, last, &half, error);
     *holds = half <= until->half_width;
     return status;
 }

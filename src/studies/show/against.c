@@ -231,14 +231,14 @@ static void keep_common(const study_data *data, study_values values[2], int colu
     values[0].count = values[1].count = kept;
 }
 
-ld_status against_read_pairs(const study_data *data, const study_point *point,
-                             const study_point *reference, const study_column *const *column,
+ld_status against_read_pairs(const paired_points *points, const study_column *const *column,
                              int columns, study_values values[2], paired_values *pairs,
                              ld_error *error)
 {
-    ld_status status = study_data_read(data, point, column, columns, &values[0], error);
+    const study_data *data = points->data;
+    ld_status status = study_data_read(data, points->point, column, columns, &values[0], error);
     if (!status)
-        status = study_data_read(data, reference, column, columns, &values[1], error);
+        status = study_data_read(data, points->reference, column, columns, &values[1], error);
     if (status)
         return status;
     keep_common(data, values, columns);

@@ -22,12 +22,17 @@ void against_free(against *self);
 // The point that this one is compared with; itself where it is one of reference.
 const study_point *against_reference(const against *self, const study_point *point);
 
+// A point of a study, and the one that it is compared with.
+typedef struct paired_points {
+    const study_data *data;
+    const study_point *point, *reference;
+} paired_points;
+
 // Reads one result, or two, of the rockets that have them at both points, paired by sample and
 // place in the order of firing: the same numbers are drawn for both.
 // @param values of the point and of its reference, used again from call to call; `pairs` stands in
 //               them
-ld_status against_read_pairs(const study_data *data, const study_point *point,
-                             const study_point *reference, const study_column *const *column,
+ld_status against_read_pairs(const paired_points *points, const study_column *const *column,
                              int columns, study_values values[2], paired_values *pairs,
                              ld_error *error);
 

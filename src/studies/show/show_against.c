@@ -45,9 +45,8 @@ static ld_status compare_item(show_against *self, const study_point *point,
                               ld_error *error)
 {
     paired_values pairs;
-    const study_point *reference = against_reference(self->of, point);
-    ld_status status = against_read_pairs(self->of->data, point, reference, column, columns,
-                                          self->values, &pairs, error);
+    const paired_points points = {self->of->data, point, against_reference(self->of, point)};
+    ld_status status = against_read_pairs(&points, column, columns, self->values, &pairs, error);
     if (!status && paired_statistics_of(&pairs, of))
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
     if (!status && of->groups > 0)

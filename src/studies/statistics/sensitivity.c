@@ -158,21 +158,27 @@ static double adjusted(const regression *self)
     return (explained - expected) / total;
 }
 
+// Pairs of values in the order of their groups.
+typedef struct grouped_pairs {
+    const double *x, *y;  // [count]
+    const int64_t *group; // [count]
+    size_t count, groups;
+} grouped_pairs;
+
 // Sums the rows of each block; returns how many blocks there are.
-static int sum_blocks(const polynomials *p, const double *x, const double *y, const int64_t *group,
-                      size_t count, size_t groups, moments block[BLOCKS])
+static int sum_blocks(const polynomials *p, const grouped_pairs *of, moments block[BLOCKS])
 {
-    double mean = mean_of(y, count);
-    size_t blocks = groups < BLOCKS ? groups : BLOCKS;
+    double mean = mean_of(of->y, of->count);
+    size_t blocks = of->groups < BLOCKS ? of->groups : BLOCKS;
     memset(block, 0, blocks * sizeof *block);
-    for (size_t i = 0, g = 0; i < count; i++) {
+    for (size_t i = 0, g = 0; i < of->count; i++) {
         double row[ROW] = {0};
-        g += i > 0 && group[i] != group[i - 1];
-        evaluate(p, x[i], row);
+        g += i > 0 && of->group[i] != of->group[i - 1];
+        evaluate(p, of->x[i], row);
         for (int k = 1; k <= p->degree; k++)
             row[k] /= p->norm[k];
-        row[RESULT] = y[i] - mean;
-        moments *sum = &block[g * blocks / groups];
+        row[RESULT] = of->y[i] - mean;
+        moments *sum = &block[g * blocks / of->groups];
         for (int j = 0; j < ROW; j++)
             for (int k = 0; k < ROW; k++)
                 sum->of[j][k] += row[j] * row[k];
@@ -214,7 +220,7 @@ estimate sensitivity_of(const double *x, const double *y, const int64_t *sample,
     if (draws < 5 || groups < 3)
         return (estimate){NAN, NAN, NAN};
     polynomials p = make_polynomials(x, count, degree > 1 ? degree : 1);
-    int blocks = sum_blocks(&p, x, y, group, count, groups, block);
+    int blocks = sum_blocks(&p, &(grouped_pairs){x, y, group, count, groups}, block);
     for (int b = 0; b < blocks; b++)
         add_moments(&all, &block[b], 1);
     regression all_of_it = {p.degree, blocks, -1, block, &all, (double)draws};

@@ -26,13 +26,14 @@ void store_lock_name(const char *path, char name[4096])
 }
 
 // "shard-03-of-64"
-static void name_file(char *path, size_t size, const char *folder, int shard, int shards)
+static void name_file(char *path, size_t size, const store_place *place)
 {
-    int digits = snprintf(NULL, 0, "%d", shards);
-    if (shards > 0)
-        snprintf(path, size, "%s/shard-%0*d-of-%d.db", folder, digits, shard, shards);
+    int digits = snprintf(NULL, 0, "%d", place->shards);
+    if (place->shards > 0)
+        snprintf(path, size, "%s/shard-%0*d-of-%d.db", place->folder, digits, place->shard,
+                 place->shards);
     else
-        snprintf(path, size, "%s/study.db", folder);
+        snprintf(path, size, "%s/study.db", place->folder);
 }
 
 static ld_status prepare_all(study_store *self, ld_error *error)
@@ -288,28 +289,27 @@ static ld_status open_pending(study_store *self, ld_error *error)
 
 // ---- the whole of it
 
-static ld_status open_locked(study_store *self, const char *folder, int shard, int shards,
-                             store_journal journal, ld_error *error)
+static ld_status open_locked(study_store *self, const store_place *place, ld_error *error)
 {
-    if (strlen(folder) + 64 > sizeof self->path)
+    if (strlen(place->folder) + 64 > sizeof self->path)
         return ld_fail(error, LD_ERR_INPUT, "the name of the folder is too long");
-    name_file(self->path, sizeof self->path, folder, shard, shards);
+    name_file(self->path, sizeof self->path, place);
     char lock[4096];
     store_lock_name(self->path, lock);
     ld_status status = lock_file_take(lock, self->path, &self->lock, error);
-    return status ? status : open_database(self, journal, error);
+    return status ? status : open_database(self, place->journal, error);
 }
 
-ld_status store_open(study_store *self, const char *folder, int shard, int shards,
-                     const ld_study *study, store_journal journal, ld_error *error)
+ld_status store_open(study_store *self, const store_place *place, const ld_study *study,
+                     ld_error *error)
 {
     char made[4096];
     size_t there = 0;
     *self = (study_store){.study = study, .lock = -1};
-    snprintf(made, sizeof made, "%s", folder);
+    snprintf(made, sizeof made, "%s", place->folder);
     ld_status status = folder_make(made, &there, error);
     if (!status)
-        status = open_locked(self, folder, shard, shards, journal, error);
+        status = open_locked(self, place, error);
     if (!status)
         status = store_begin(self, error);
     if (!status)
@@ -338,8 +338,9 @@ static ld_status check_begun(study_store *self, ld_error *error)
 
 ld_status store_open_to_merge(study_store *self, const char *folder, ld_error *error)
 {
+    const store_place place = {.folder = folder, .journal = STORE_ROLLBACK};
     *self = (study_store){.lock = -1};
-    ld_status status = open_locked(self, folder, 0, 0, STORE_ROLLBACK, error);
+    ld_status status = open_locked(self, &place, error);
     if (!status)
         status = check_begun(self, error);
     if (status)

@@ -8,10 +8,17 @@
 #include "studies/plan/record.h"
 #include "studies/store/store_database.h"
 
+// Where a database is. Of a shard (shards > 0) it is one of its own.
+typedef struct store_place {
+    const char *folder;
+    int shard, shards;
+    store_journal journal;
+} store_place;
+
 // Opens the database for `study`, making what is not there; refuses another scenario's,
-// or one at which another process is at work. Of a shard (shards > 0) it is a database of its own.
-ld_status store_open(study_store *self, const char *folder, int shard, int shards,
-                     const ld_study *study, store_journal journal, ld_error *error);
+// or one at which another process is at work.
+ld_status store_open(study_store *self, const store_place *place, const ld_study *study,
+                     ld_error *error);
 // Opens study.db where it is there, for reading only; what it says once is as it was written.
 ld_status store_open_to_read(study_store *self, const char *folder, ld_error *error);
 // Opens study.db, which may be new and empty, to add what shards hold.

@@ -490,18 +490,25 @@ static sqlite3_stmt *select_values(study_reader *self, const study_column *const
     return store_prepare_built(&self->store, text, error);
 }
 
-// Of the samples numbered up to `last`.
-static ld_status read_up_to(const study_data *data, const study_point *point, int64_t last,
-                            const study_column *const *column, int columns, study_values *values,
+// What is read of a point: columns, of the samples numbered up to `last`.
+typedef struct study_query {
+    const study_point *point;
+    int64_t last;
+    const study_column *const *column;
+    int columns;
+} study_query;
+
+static ld_status read_up_to(const study_data *data, const study_query *query, study_values *values,
                             ld_error *error)
 {
+    const int columns = query->columns;
     study_reader *self = data->reader;
     int result = SQLITE_DONE;
-    sqlite3_stmt *row = select_values(self, column, columns, error);
+    sqlite3_stmt *row = select_values(self, query->column, columns, error);
     if (!row)
         return error->status;
-    sqlite3_bind_int64(row, 1, point->number);
-    sqlite3_bind_int64(row, 2, last);
+    sqlite3_bind_int64(row, 1, query->point->number);
+    sqlite3_bind_int64(row, 2, query->last);
     values->count = 0;
     bool room = reserve(values, columns, values->capacity ? values->capacity : 1024);
     while (room && (result = sqlite3_step(row)) == SQLITE_ROW) {
@@ -520,7 +527,8 @@ ld_status study_data_read(const study_data *data, const study_point *point,
                           const study_column *const *column, int columns, study_values *values,
                           ld_error *error)
 {
-    return read_up_to(data, point, INT64_MAX, column, columns, values, error);
+    const study_query query = {point, INT64_MAX, column, columns};
+    return read_up_to(data, &query, values, error);
 }
 
 // ---- stopping rules
@@ -535,20 +543,19 @@ static double half_width(const group_statistics *of, ld_statistic statistic, boo
 }
 
 ld_status study_data_half_width(const study_data *data, const study_column *result,
-                                ld_statistic statistic, bool relative, int64_t last, double *half,
-                                ld_error *error)
+                                const ld_until *rule, int64_t last, double *half, ld_error *error)
 {
     study_values values = {0};
     ld_status status = LD_OK;
     *half = 0;
     for (int i = 0; i < data->point_count && !status; i++) {
         group_statistics of;
-        status = read_up_to(data, &data->point[i], last > 0 ? last : INT64_MAX, &result, 1, &values,
-                            error);
+        const study_query query = {&data->point[i], last > 0 ? last : INT64_MAX, &result, 1};
+        status = read_up_to(data, &query, &values, error);
         if (!status && moments_of(values.value[0], values.group, values.count, &of))
             status = no_memory(error);
         if (!status)
-            *half = fmax(*half, half_width(&of, statistic, relative));
+            *half = fmax(*half, half_width(&of, rule->statistic, rule->relative));
     }
     study_values_free(&values);
     return status;

@@ -81,12 +81,11 @@ ld_status study_data_read(const study_data *data, const study_point *point,
                           ld_error *error);
 void study_values_free(study_values *values);
 
-// Half the width of the 95 % interval of a result's mean or standard deviation, the greatest over
-// all points, of the samples numbered up to `last` (0: of all): for stopping rules. Of a `relative`
-// one, as a share of the statistic's magnitude. Infinite while a point states no interval; 0 of a
-// result that does not scatter.
+// Half the width of the 95 % interval of a result's statistic that a stopping rule asks for, the
+// greatest over all points, of the samples numbered up to `last` (0: of all). Of a relative one, as
+// a share of the statistic's magnitude. Infinite while a point states no interval; 0 of a result
+// that does not scatter.
 ld_status study_data_half_width(const study_data *data, const study_column *result,
-                                ld_statistic statistic, bool relative, int64_t last, double *half,
-                                ld_error *error);
+                                const ld_until *rule, int64_t last, double *half, ld_error *error);
 
 #endif
