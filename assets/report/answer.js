@@ -74,10 +74,12 @@ const time = (rocket) => (typeof rocket.t_rear === "number" ? rocket.t_rear - (r
 
 function launchRows(rockets, named) {
   const each = (find) => rockets.map(find), off = finite(each((r) => mrad(r.exit_error?.rates)));
-  const against = `against the launcher${off.length ? `, ± ${Number(Math.max(...off).toPrecision(2))}` : ""}`;
+  const error = off.length ? `± ${Number(Math.max(...off).toPrecision(2))}\u00a0mrad/s; ` : "";
+  const rates = (name) => saidOf(each((r) => mrad(r.tip_off?.[name])), "mrad/s");
+  const relative = (said) => (said ? `${error}relative rate ${said.join("\u00a0")}` : "");
   return [
-    row("Tip-off pitch rate", saidOf(each((r) => mrad(r.tip_off?.pitch_rate_relative)), "mrad/s"), against),
-    row("Tip-off yaw rate", saidOf(each((r) => mrad(r.tip_off?.yaw_rate_relative)), "mrad/s"), against),
+    row("Tip-off pitch rate", rates("pitch_rate"), relative(rates("pitch_rate_relative"))),
+    row("Tip-off yaw rate", rates("yaw_rate"), relative(rates("yaw_rate_relative"))),
     row("Spin at the exit", saidOf(each((r) => r.spin_rate), "rad/s")),
     row("From release to exit", saidOf(each(time), "s")),
     contact(rockets),
@@ -103,7 +105,7 @@ function measureRows({ measures, rockets }) {
 function energy({ energy: found }) {
   const missing = found?.residual_relative;
   if (typeof missing !== "number") return null;
-  return row("Energy balance misses", [rounded(Math.abs(missing)), ""], "of the largest work");
+  return row("Energy residual", [rounded(Math.abs(missing)), ""], "of the largest work");
 }
 
 function notesBlock(notes) {

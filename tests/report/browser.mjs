@@ -118,7 +118,7 @@ async function checkAnswer(page, run) {
   const headline = parseFloat(await page.textContent(".headline strong"));
   const first = t.findIndex((time) => time >= 0), apart = (row, names) => Math.hypot(...names.map((name) => column.get(name)[row] - column.get(name)[first]));
   const way = (names) => Math.max(...t.map((_, row) => (row >= first && Number.isFinite(column.get(names[0])[row]) ? apart(row, names) : 0)));
-  const wanted = { "Tip-off pitch rate": 1e3 * rocket.tip_off.pitch_rate_relative, "Tip-off yaw rate": 1e3 * rocket.tip_off.yaw_rate_relative,
+  const wanted = { "Tip-off pitch rate": 1e3 * rocket.tip_off.pitch_rate, "Tip-off yaw rate": 1e3 * rocket.tip_off.yaw_rate,
     "Spin at the exit": rocket.spin_rate, "From release to exit": 1e3 * (rocket.t_rear - rocket.t_release), "Largest contact force": 1e-3 * force,
     "Moved most": 1e3 * Math.max(way(["tip.y", "tip.z"]), way(["rocket.y", "rocket.z"])) };
   const wrong = Object.entries(wanted).filter(([name, value]) => !near(parseFloat(said[name]?.[0]), value, 6e-3));
@@ -126,9 +126,12 @@ async function checkAnswer(page, run) {
     Object.values(said).every(([text]) => (text.match(/[1-9][0-9.]*/)?.[0] ?? "").replace(".", "").length <= 4), JSON.stringify(said));
   check("with the part of the largest force, and the unit", said["Largest contact force"][1] === part && said["Largest contact force"][0].endsWith("kN") &&
     said["Moved most"][0].endsWith("mm"), part);
-  const [digits, power] = said["Energy balance misses"][0].split("·10");
+  const [, relative] = said["Tip-off pitch rate"][1].replace("−", "-").match(/relative rate (\S+)\u00a0mrad\/s$/) ?? [];
+  check("beside the tip-off rate the relative one", near(Number(relative), 1e3 * rocket.tip_off.pitch_rate_relative, 6e-3) &&
+    /^± \S+\u00a0mrad\/s; /.test(said["Tip-off pitch rate"][1]), said["Tip-off pitch rate"][1]);
+  const [digits, power] = said["Energy residual"][0].split("·10");
   check("and how well energies balance", near(Number(digits) * 10 ** Number([...power].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).map((d) => (d < 0 ? "-" : d)).join("")),
-    Math.abs(summary.energy.residual_relative), 0.06), said["Energy balance misses"][0]);
+    Math.abs(summary.energy.residual_relative), 0.06), said["Energy residual"][0]);
 }
 
 // Tube, adaptors, supports and mass centre are where the geometry has them, with one scale in both directions.
