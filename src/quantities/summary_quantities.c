@@ -145,11 +145,11 @@ static const quantity measures[] = {
 };
 #define HELD(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, hinge, member)
 static const quantity held[] = {
-    {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT, LINE("%s error", "mrad", MILLI, 4)},
-    {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT, LINE("%s torque, peak", "N.m", 1, 1)},
+    {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT, LINE("%s error", "mrad, rms", MILLI, 4)},
+    {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT, LINE("%s torque", "N.m, rms and peak", 1, 1)},
     {"%s.torque_peak", "N.m", "%s: its largest magnitude", HELD(torque_peak), KEPT, .from_zero = true, BESIDE(1)},
     {"%s.saturated", "s", "%s: how long the stabiliser asked for its torque limit", HELD(saturated), KEPT, .from_zero = true, NONZERO("%s saturated", "ms", MILLI, 3)},
-    {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT, LINE("%s power, peak", "W", 1, 1)},
+    {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT, LINE("%s power", "W, mean and peak", 1, 1)},
     {"%s.power_peak", "W", "%s: its largest value", HELD(power_peak), KEPT, .from_zero = true, BESIDE(1)},
 };
 static const quantity change[] = {
@@ -248,7 +248,7 @@ static const quantity_group rocket_groups[] = {
 // ---- the run
 
 static const quantity resting_forces[] = {
-    {"equilibrium.lock_force", "N", "carried by the lock, along +x", RUN(equilibrium.lock_force), LINE("lock force", "N", 1, 2)},
+    {"equilibrium.lock_force", "N", "carried by the lock, along +x", RUN(equilibrium.lock_force), LINE("lock carries", "N, forward positive", 1, 2)},
     {"equilibrium.breech_force", "N", "of the breech on the rocket, along +x", RUN(equilibrium.breech_force), NONZERO("breech force", "N", 1, 2)},
 };
 static const quantity resting_knob[] = {

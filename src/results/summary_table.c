@@ -129,7 +129,7 @@ static void print_cost(const ld_summary *summary, bool launch, FILE *stream)
     const ld_statistics *statistics = &summary->statistics;
     fputs("\nRun\n", stream);
     if (launch && isfinite(summary->energy.residual))
-        fprintf(stream, "  %-22s %12.3e J, %.1e of the largest work\n", "energy balance misses",
+        fprintf(stream, "  %-22s %12.3e J, %.1e of the largest work\n", "energy residual",
                 summary->energy.residual, summary->energy.residual_relative);
     fprintf(stream, "  %-22s %12lld, %lld evaluations\n", "steps", (long long)statistics->steps,
             (long long)statistics->rhs_evaluations);
