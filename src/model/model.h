@@ -161,13 +161,18 @@ typedef struct ld_environment {
     ld_wind wind;
 } ld_environment;
 
+/// What carries the tube: a kind, its word, its number in digests. External: told where it is by
+/// whoever runs the launch, step by step. FMU: one of other people's, stepped beside the launch.
+#define LD_BASE_KINDS(KIND)                                                                        \
+    KIND(LD_BASE_FIXED, fixed, 0)                                                                  \
+    KIND(LD_BASE_PRESCRIBED, prescribed, 1)                                                        \
+    KIND(LD_BASE_VEHICLE, vehicle, 2)                                                              \
+    KIND(LD_BASE_EXTERNAL, external, 4)                                                            \
+    KIND(LD_BASE_FMU, fmu, 5)
+
+#define LD_BASE_KIND_NUMBER(name, word, number) name = (number),
 typedef enum ld_base_kind {
-    LD_BASE_FIXED,
-    LD_BASE_PRESCRIBED,
-    LD_BASE_VEHICLE,
-    LD_BASE_NONE,     ///< no launcher: a flight alone
-    LD_BASE_EXTERNAL, ///< told where it is by whoever runs the launch, step by step
-    LD_BASE_FMU,      ///< an FMU of other people's, stepped beside the launch
+    LD_BASE_KINDS(LD_BASE_KIND_NUMBER) LD_BASE_NONE = 3, ///< no launcher: a flight alone
 } ld_base_kind;
 
 /// What a base without wheels is drawn as; nothing of its mechanics.

@@ -471,10 +471,8 @@ static const field_block tyre_block = {.fields = tyre_fields};
 
 // ---- base
 
-static const field_word base_words[] = {
-    {"fixed", LD_BASE_FIXED},     {"prescribed", LD_BASE_PRESCRIBED},
-    {"vehicle", LD_BASE_VEHICLE}, {"external", LD_BASE_EXTERNAL},
-    {"fmu", LD_BASE_FMU},         {NULL, 0}};
+#define BASE_WORD(name, word, number) {#word, name},
+static const field_word base_words[] = {LD_BASE_KINDS(BASE_WORD){NULL, 0}};
 static const field_word extrapolation_words[] = {{"acceleration", LD_EXTRAPOLATION_ACCELERATION},
                                                  {"velocity", LD_EXTRAPOLATION_VELOCITY},
                                                  {NULL, 0}};
@@ -1419,14 +1417,11 @@ static const field_block air_brakes_block = {.fields = air_brakes_fields,
                                              .form_from_keys = true};
 
 // What carries the rocket: the form of the whole scenario and of the rocket.
-static const field_word kind_words[] = {{"base.kind: fixed", LD_BASE_FIXED},
-                                        {"base.kind: prescribed", LD_BASE_PRESCRIBED},
-                                        {"base.kind: vehicle", LD_BASE_VEHICLE},
-                                        {"base.kind: external", LD_BASE_EXTERNAL},
-                                        {"base.kind: fmu", LD_BASE_FMU},
-                                        {"flight", LD_BASE_NONE},
+#define KIND_WORD(name, word, number) {"base.kind: " #word, name},
+static const field_word kind_words[] = {LD_BASE_KINDS(KIND_WORD){"flight", LD_BASE_NONE},
                                         {NULL, 0}};
-#define IN_TUBE .forms = FIXED_OR_PRESCRIBED | VEHICLE | EXTERNAL | FMU
+#define OR_KIND(name, word, number) | FORM(name)
+#define IN_TUBE .forms = 0 LD_BASE_KINDS(OR_KIND)
 #define IN_FLIGHT FORM(LD_BASE_NONE)
 #define NOT_IN_FLIGHT(text) .optional = IN_FLIGHT, .initial_doc = (text)
 static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};

@@ -3,16 +3,14 @@
 
 #include <math.h>
 
-static const base_interface *const kinds[] = {&base_fixed, &base_prescribed, &base_vehicle,
-                                              &base_external, &base_fmu};
+#define KIND(name, word, number) [name] = &base_##word,
+static const base_interface *const kinds[] = {LD_BASE_KINDS(KIND)};
 
 // NULL: there is none.
 static const base_interface *base_of_kind(ld_base_kind kind)
 {
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
-        if (kinds[i]->kind == kind)
-            return kinds[i];
-    return NULL;
+    size_t number = (size_t)kind;
+    return number < sizeof kinds / sizeof kinds[0] ? kinds[number] : NULL;
 }
 
 const quantity_table *base_quantities(ld_base_kind kind)

@@ -1,7 +1,7 @@
 // What carries the tube: where the frame T of the undeformed tube is, how it moves, and what the
 // tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
-// functions, listed in base.c. The equations do not ask which kind it is; base_as_vehicle is there
-// for what a vehicle alone has: subsystems integrated apart, geometry, figures at rest.
+// functions, listed in LD_BASE_KINDS. The equations do not ask which kind it is; base_as_vehicle is
+// there for what a vehicle alone has: subsystems integrated apart, geometry, figures at rest.
 //
 // Some kinds go where time or a caller says. Others have a motion of their own, with rates, works,
 // equilibrium and natural frequencies: they fill in `dynamics`.
@@ -157,7 +157,6 @@ typedef struct base_stepping {
 } base_stepping;
 
 struct base_interface {
-    ld_base_kind kind;
     // Fills self->own and the counts.
     ld_status (*build)(base_system *self, ld_error *error);
     void (*free)(base_system *self);
@@ -191,7 +190,9 @@ struct base_interface {
     const quantity_table *inputs;  // which of the base_inputs it has; NULL: none
 };
 
-extern const base_interface base_fixed, base_prescribed, base_vehicle, base_external, base_fmu;
+#define BASE_INTERFACE(name, word, number) extern const base_interface base_##word;
+LD_BASE_KINDS(BASE_INTERFACE)
+#undef BASE_INTERFACE
 
 // Columns of the bases of that kind; NULL: they have none of their own.
 const quantity_table *base_quantities(ld_base_kind kind);

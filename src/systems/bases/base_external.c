@@ -72,4 +72,4 @@ static void tell(const base_system *self, double t, bool first, const base_frame
 }
 
 const base_interface base_external = {
-    .kind = LD_BASE_EXTERNAL, .build = build, .free = release, .place = place, .tell = tell};
+    .build = build, .free = release, .place = place, .tell = tell};

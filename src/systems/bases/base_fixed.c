@@ -40,8 +40,7 @@ static void angles(const base_system *self, double t, double angles[3])
         angles[i] = self->disturbed ? self->disturbed->input.motion[3 + i] : 0;
 }
 
-const base_interface base_fixed = {.kind = LD_BASE_FIXED,
-                                   .build = build,
+const base_interface base_fixed = {.build = build,
                                    .free = release,
                                    .place = place,
                                    .angles = angles,

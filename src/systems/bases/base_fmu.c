@@ -644,8 +644,7 @@ static ld_status share(base_system *base, ld_error *error)
     return LD_OK;
 }
 
-const base_interface base_fmu = {.kind = LD_BASE_FMU,
-                                 .build = build,
+const base_interface base_fmu = {.build = build,
                                  .free = release,
                                  .share = share,
                                  .place = place,

@@ -12,4 +12,4 @@ static void release(base_system *self)
     (void)self;
 }
 
-const base_interface base_fmu = {.kind = LD_BASE_FMU, .build = build, .free = release};
+const base_interface base_fmu = {.build = build, .free = release};

@@ -136,8 +136,7 @@ static void span(const base_system *base, double *first, double *last)
     *last = rows->count ? rows->t[rows->count - 1] : INFINITY;
 }
 
-const base_interface base_prescribed = {.kind = LD_BASE_PRESCRIBED,
-                                        .build = build,
+const base_interface base_prescribed = {.build = build,
                                         .free = release,
                                         .place = place,
                                         .angles = angles,

@@ -619,7 +619,6 @@ static void find(const base_system *base, const base_found *found, const base_ou
 }
 
 const base_interface base_vehicle = {
-    .kind = LD_BASE_VEHICLE,
     .build = build,
     .free = release,
     .share = share,
