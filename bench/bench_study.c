@@ -9,8 +9,8 @@
 #include "bench_sample.h"
 #include "bench_scratch.h"
 #include "flight/flight_lanes.h"
-#include "launch/simulation_build.h"
 #include "launchdyn/study.h"
+#include "run/simulation_build.h"
 #include "state/simulation.h"
 #include "studies/run/worker.h"
 

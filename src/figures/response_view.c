@@ -4,12 +4,12 @@
 
 #include "figures/chart.h"
 #include "figures/density_file.h"
-#include "launch/measures.h"
 #include "launchdyn/response_view.h"
 #include "math/functions.h"
 #include "model/model.h"
 #include "quantities/study_results.h"
 #include "results/columns.h"
+#include "run/measures.h"
 
 enum { POINTS = 600, MOST_SPEEDS = 10000, CHARTS = 8, CURVES = 6, NAME = 128 };
 

@@ -4,6 +4,7 @@
 
 #include "fmu/fmu_runner.h"
 #include "launch/launch_outside.h"
+#include "run/run.h"
 
 typedef ld_status beginning(const ld_simulation *simulation, const ld_run_options *options,
                             ld_run **run, ld_error *error);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "launch/launch_outside.h"
+#include "launch/launch_outside_names.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"

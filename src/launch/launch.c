@@ -1,8 +1,17 @@
 // A launch from its start to its end: begin, then step by step what comes next.
+#include "launch/launch.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "launch/launch_run.h"
+#include "launch/launch_base.h"
+#include "launch/launch_events.h"
+#include "launch/launch_exit_error.h"
+#include "launch/launch_flights.h"
+#include "launch/launch_limits.h"
+#include "launch/launch_measures.h"
+#include "launch/launch_rows.h"
+#include "launch/launch_summary.h"
 #include "quantities/summary_quantities.h"
 #include "state/equilibrium.h"
 

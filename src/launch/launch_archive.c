@@ -1,7 +1,9 @@
 // The state of a launch as bytes.
+#include "launch/launch_archive.h"
+
 #include <limits.h>
 
-#include "launch/launch_run.h"
+#include "launch/launch_flights.h"
 #include "quantities/summary_quantities.h"
 
 static void archive_phase(archive *bytes, launching_phase *phase)

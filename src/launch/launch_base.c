@@ -1,4 +1,6 @@
 // A base that is told where it is, one that acts by itself at instants, and the wrench on any base.
+#include "launch/launch_base.h"
+
 #include <math.h>
 #include <string.h>
 

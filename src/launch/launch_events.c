@@ -1,8 +1,13 @@
 // What happens at events and stops of a launch: the lock lets go, adaptors pass the tip, ignition,
 // corners.
+#include "launch/launch_events.h"
+
 #include <math.h>
 
+#include "launch/launch_base.h"
+#include "launch/launch_rows.h"
 #include "launch/launch_run.h"
+#include "launch/launch_summary.h"
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 

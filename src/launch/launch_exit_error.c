@@ -8,10 +8,11 @@
 // is stable up to h omega = 2, the run's steps are longer: so what the twin's speeds change by is
 // softened as an implicit step would, by (1 + h C/2 + h^2 K/4)^-1 of the tube on its supports. What
 // carries the launcher moves as in the run.
+#include "launch/launch_exit_error.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#include "launch/launch_run.h"
 #include "math/functions.h"
 #include "math/matrices/dense.h"
 #include "state/evaluation.h"

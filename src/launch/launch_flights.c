@@ -1,10 +1,11 @@
 // The flights of the rockets that have left their tubes.
+#include "launch/launch_flights.h"
+
 #include <math.h>
 
 #include "base/cpu_time.h"
 #include "flight/flight_history.h"
 #include "flight/free_flight.h"
-#include "launch/launch_run.h"
 
 static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
                                   const double *state, ld_error *error)

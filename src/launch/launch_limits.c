@@ -1,7 +1,7 @@
 // What ends a launch early, and who hears how far it is.
+#include "launch/launch_limits.h"
 
 #include "integration/step_limit.h"
-#include "launch/launch_run.h"
 #include "math/functions.h"
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"

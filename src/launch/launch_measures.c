@@ -1,7 +1,8 @@
 // The measures of a launch, taken as it goes.
+#include "launch/launch_measures.h"
+
 #include <math.h>
 
-#include "launch/launch_run.h"
 #include "state/history.h"
 
 _Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS, "rows of a launch have no room");

@@ -3,6 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "launch/launch.h"
+#include "launch/launch_base.h"
+#include "launch/launch_events.h"
+#include "launch/launch_limits.h"
 #include "launch/launch_run.h"
 #include "state/evaluation.h"
 #include "state/stepping/outside_steps.h"

@@ -13,28 +13,10 @@
 // Whether one of this simulation can be taken so; else why not (LD_ERR_MISSING).
 ld_status launch_outside_check(const ld_simulation *simulation, ld_error *error);
 
-// ld_run_begin() and ld_run_load() of one whose steps are taken outside.
-ld_status run_begin_outside(const ld_simulation *simulation, const ld_run_options *options,
-                            ld_run **out, ld_error *error);
-ld_status run_load_outside(const ld_simulation *simulation, const void *bytes, size_t size,
-                           ld_run **out, ld_error *error);
-
-// ---- what it has
-
-enum { OUTSIDE_NAME_SIZE = 64 };
-
-// A state or what goes through zero at an event, as an importer sees it.
-typedef struct outside_quantity {
-    char name[OUTSIDE_NAME_SIZE]; // "tube.position.x"; "exit.1"
-    const char *unit;             // SI; "": none, or not told
-    const char *rate_unit;        // of a state
-    const char *description;
-} outside_quantity;
+// ---- what it has (launch_outside_names.h: by name)
 
 int launch_outside_states(const ld_run *run);
-outside_quantity launch_outside_state(const ld_run *run, int i);
 int launch_outside_indicators(const ld_run *run); // LD_MAX_STATES at most
-outside_quantity launch_outside_indicator(const ld_run *run, int i);
 // How large a change of each state counts, relative to the others [states].
 void launch_outside_nominals(const ld_run *run, double *nominal);
 

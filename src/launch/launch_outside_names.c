@@ -1,4 +1,6 @@
 // What the states and the events of a launch are called where steps are taken outside.
+#include "launch/launch_outside_names.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 

@@ -1,6 +1,7 @@
 // Rows of a launch to who listens, at the output steps and the key instants.
+#include "launch/launch_rows.h"
+
 #include "base/cpu_time.h"
-#include "launch/launch_run.h"
 #include "state/geometry.h"
 #include "state/history.h"
 

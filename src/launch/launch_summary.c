@@ -1,9 +1,11 @@
 // What a launch leaves besides its rows.
+#include "launch/launch_summary.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include "base/printed.h"
-#include "launch/launch_run.h"
+#include "launch/launch_exit_error.h"
 #include "math/functions.h"
 #include "state/energy.h"
 #include "state/evaluation.h"

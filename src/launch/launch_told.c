@@ -2,6 +2,13 @@
 
 #include <string.h>
 
+#include "launch/launch.h"
+#include "launch/launch_base.h"
+#include "launch/launch_events.h"
+#include "launch/launch_measures.h"
+#include "launch/launch_rows.h"
+#include "launch/launch_summary.h"
+
 // What the base was told before at the present counts no more.
 static void tell_anew(ld_run *run, const base_frame *now, double *state)
 {

@@ -10,11 +10,12 @@
 
 #include "base/random.h"
 #include "launch/launch_run.h"
-#include "launch/simulation_build.h"
 #include "launchdyn/response.h"
 #include "linear/response_state.h"
 #include "math/functions.h"
 #include "quantities/study_results.h"
+#include "run/run.h"
+#include "run/simulation_build.h"
 #include "state/linearise.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;

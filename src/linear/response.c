@@ -9,11 +9,11 @@
 
 #include "base/suggestion.h"
 #include "environment/road.h"
-#include "launch/simulation_build.h"
 #include "linear/plant.h"
 #include "linear/response_state.h"
 #include "math/functions.h"
 #include "math/matrices/hessenberg.h"
+#include "run/simulation_build.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 

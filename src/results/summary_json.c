@@ -9,7 +9,6 @@
 
 #include "base/memory_stream.h"
 #include "base/numeric_locale.h"
-#include "launch/measures.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
 #include "quantities/summary.h"
@@ -17,6 +16,7 @@
 #include "results/json.h"
 #include "results/json_text.h"
 #include "results/origin.h"
+#include "run/measures.h"
 
 // ---- numbers by their paths
 

@@ -1,11 +1,11 @@
 #include <string.h>
 
 #include "base/printed.h"
-#include "launch/measures.h"
 #include "launchdyn/output.h"
 #include "math/functions.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
+#include "run/measures.h"
 
 // " ± error" of the values in a line, never less than their last digit; "" where it is not known.
 static const char *print_error(const quantity_line *line, const void *from, char text[32])

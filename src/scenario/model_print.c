@@ -2,9 +2,9 @@
 #include <locale.h>
 
 #include "base/printed.h"
-#include "launch/measures.h"
 #include "model/fields/field.h"
 #include "quantities/study_results.h"
+#include "run/measures.h"
 #include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/scenario_text.h"

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "launch/measures.h"
 #include "model/fields/field.h"
+#include "run/measures.h"
 #include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "launch/measures.h"
 #include "model/fields/field.h"
 #include "quantities/study_results.h"
+#include "run/measures.h"
 #include "scenario/scenario_reader.h"
 
 static const char *const statistic_names[] = {"mean", "deviation"};

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-#include "launch/simulation_build.h"
+#include "run/simulation_build.h"
 #include "scenario/scenario.h"
 #include "state/simulation.h"
 

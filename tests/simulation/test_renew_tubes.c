@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "launch/simulation_build.h"
 #include "model/fields/field.h"
+#include "run/simulation_build.h"
 #include "scenario/scenario.h"
 #include "state/simulation.h"
 

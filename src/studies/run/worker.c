@@ -10,8 +10,8 @@
 
 #include "flight/flight_alone.h"
 #include "flight/flight_lanes.h"
-#include "launch/simulation_build.h"
 #include "quantities/study_results.h"
+#include "run/simulation_build.h"
 #include "state/simulation.h"
 
 ld_status worker_create(study_worker *self, const ld_study *study, ld_error *error)

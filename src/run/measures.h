@@ -1,8 +1,8 @@
 // Measures: results that a scenario asks for besides those that every run has. Each takes one
 // column of the launch, or of the flights, rocket by rocket: its value at an instant, or its
 // largest magnitude, root mean square or mean in a window between two.
-#ifndef LD_LAUNCH_MEASURES_H
-#define LD_LAUNCH_MEASURES_H
+#ifndef LD_RUN_MEASURES_H
+#define LD_RUN_MEASURES_H
 
 #include "model/fields/field.h"
 #include "quantities/measuring.h"

@@ -1,7 +1,7 @@
 // A vehicle alone: the base of a launcher, taken forward under the wrench that it is told.
 //
 // State: the base's | its works by kind of force | the work of the tube's wrench.
-#include "launch/vehicle_run.h"
+#include "run/vehicle_run.h"
 
 #include <float.h>
 #include <math.h>

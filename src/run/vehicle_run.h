@@ -1,6 +1,6 @@
 // A vehicle's run alone: the columns of its history (launchdyn/vehicle_run.h has the run).
-#ifndef LD_LAUNCH_VEHICLE_RUN_H
-#define LD_LAUNCH_VEHICLE_RUN_H
+#ifndef LD_RUN_VEHICLE_RUN_H
+#define LD_RUN_VEHICLE_RUN_H
 
 #include "quantities/quantity_table.h"
 #include "state/simulation.h"

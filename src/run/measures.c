@@ -1,4 +1,4 @@
-#include "launch/measures.h"
+#include "run/measures.h"
 
 #include <assert.h>
 #include <stdarg.h>

@@ -1,13 +1,13 @@
-#include "launch/simulation_build.h"
+#include "run/simulation_build.h"
 
 #include <assert.h>
 #include <stdlib.h>
 
 #include "base/cpu_time.h"
 #include "flight/flight_alone.h"
-#include "launch/measures.h"
-#include "launch/vehicle_run.h"
 #include "model/salvo.h"
+#include "run/measures.h"
+#include "run/vehicle_run.h"
 #include "state/history.h"
 #include "state/linearise.h"
 

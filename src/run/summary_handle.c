@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "launch/measures.h"
 #include "launchdyn/summary.h"
 #include "quantities/summary_quantities.h"
+#include "run/measures.h"
 
 ld_summary *ld_summary_new(void)
 {

@@ -1,6 +1,6 @@
 // The system of a simulation: computed from a model.
-#ifndef LD_LAUNCH_SIMULATION_BUILD_H
-#define LD_LAUNCH_SIMULATION_BUILD_H
+#ifndef LD_RUN_SIMULATION_BUILD_H
+#define LD_RUN_SIMULATION_BUILD_H
 
 #include "state/simulation.h"
 

@@ -1,5 +1,5 @@
 // A run that is stepped: what is asked of it and told to it; launch.c takes its steps.
-#include "launchdyn/run.h"
+#include "run/run.h"
 
 #include <assert.h>
 #include <math.h>
@@ -9,8 +9,14 @@
 #include "base/cpu_time.h"
 #include "flight/flight_alone.h"
 #include "integration/saved_state.h"
-#include "launch/launch_outside.h"
+#include "launch/launch.h"
+#include "launch/launch_archive.h"
+#include "launch/launch_base.h"
+#include "launch/launch_exit_error.h"
+#include "launch/launch_flights.h"
+#include "launch/launch_rows.h"
 #include "launch/launch_run.h"
+#include "launch/launch_summary.h"
 #include "launch/launch_told.h"
 #include "state/history.h"
 

@@ -1,0 +1,20 @@
+// States and event indicators of a launch whose steps are taken outside, by name.
+#ifndef LD_LAUNCH_LAUNCH_OUTSIDE_NAMES_H
+#define LD_LAUNCH_LAUNCH_OUTSIDE_NAMES_H
+
+#include "launchdyn/run.h"
+
+enum { OUTSIDE_NAME_SIZE = 64 };
+
+// A state or what goes through zero at an event, as an importer sees it.
+typedef struct outside_quantity {
+    char name[OUTSIDE_NAME_SIZE]; // "tube.position.x"; "exit.1"
+    const char *unit;             // SI; "": none, or not told
+    const char *rate_unit;        // of a state
+    const char *description;
+} outside_quantity;
+
+outside_quantity launch_outside_state(const ld_run *run, int i);
+outside_quantity launch_outside_indicator(const ld_run *run, int i);
+
+#endif
