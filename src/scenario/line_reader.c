@@ -43,7 +43,7 @@ bool line_is_as_long(line_reader *lines, int fields)
     if (lines->at.count == fields)
         return true;
     snprintf(text, sizeof text,
-             "found %d fields; expected %d, as in the header (decimals take a point, no comma)",
+             "found %d fields; expected %d, as in the header (decimals are written with a point)",
              lines->at.count, fields);
     line_refuse(lines, 0, text);
     return false;

@@ -124,7 +124,7 @@ static ld_status value_text(const ld_model *model, const char *path, char *text,
     if (field_reach(model, path, &value, why, sizeof why)) {
         ld_status status = scenario_value_text(&value, text, size);
         if (status == LD_ERR_INPUT)
-            return ld_fail(error, status, "%s is more than a line", path);
+            return ld_fail(error, status, "%s does not fit on one line", path);
         if (status)
             return ld_fail(error, status, "no memory");
     } else if (field_locate(model, path, &place, why, sizeof why)) {
@@ -154,7 +154,7 @@ ld_status ld_model_table(const ld_model *model, const char *path, const double *
     if (!field_reach(model, path, &value, why, sizeof why))
         return ld_fail(error, LD_ERR_INPUT, "%s", why);
     if (value.row->kind != FIELD_TABLE)
-        return ld_fail(error, LD_ERR_INPUT, "%s is no table", path);
+        return ld_fail(error, LD_ERR_INPUT, "%s is not a table", path);
     const ld_table *found = field_at_const(value.base, value.row);
     *table = found->data;
     *rows = found->rows;

@@ -38,8 +38,7 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
     size_t length;
     ld_error error;
     if (!reader->source->folder) {
-        reader_refuse(reader, place, path, "file \"%s\" is not among the texts that are kept",
-                      within);
+        reader_refuse(reader, place, path, "file \"%s\" is not among the stored texts", within);
         return NULL;
     }
     ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
@@ -147,7 +146,7 @@ static const ld_source_file *read_first(scenario_reader *reader, text_place plac
     if (reader->source->folder)
         *digest = take_digest(reader, place, path, file_name);
     else
-        reader_refuse(reader, place, path, "file \"%s\" is not among those that are kept", within);
+        reader_refuse(reader, place, path, "file \"%s\" is not among the stored files", within);
     return *digest ? keep(reader, *digest, file_name, within) : NULL;
 }
 
@@ -175,7 +174,7 @@ const char *reader_keep(scenario_reader *reader, text_place place, const char *p
         kept = read_first(reader, place, path, file_name, within, &now);
     const char *colon = kept ? strstr(kept->text, ": /") : NULL;
     if (kept && !colon)
-        reader_refuse(reader, place, path, "where file \"%s\" is has not been kept", within);
+        reader_refuse(reader, place, path, "the path of file \"%s\" was not stored", within);
     if (!colon)
         return NULL;
     const char *whole = colon + 2;

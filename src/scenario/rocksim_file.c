@@ -60,7 +60,7 @@ static double number(rocksim_reader *self, const char *element, const XML_Char *
 static void read_engine(rocksim_reader *self, const XML_Char **attributes)
 {
     if (++self->engines > 1) {
-        refuse(self, "a second engine; only files of one are read");
+        refuse(self, "found a second engine; expected one per file");
         return;
     }
     self->in_engine = true;
@@ -71,7 +71,9 @@ static void read_engine(rocksim_reader *self, const XML_Char **attributes)
     self->whole = 1e-3 * number(self, "engine", attributes, "initWt", 0);
     self->propellant = 1e-3 * number(self, "engine", attributes, "propWt", 0);
     if (self->propellant > self->whole)
-        refuse(self, "propWt is more than initWt: more propellant than the whole engine weighs");
+        refuse(
+            self,
+            "propWt exceeds initWt: the propellant mass exceeds the total mass of the engine");
 }
 
 // A point of the curve; the point 0, 0 is implied where the first thrust is later.
@@ -89,11 +91,11 @@ static void read_point(rocksim_reader *self, const XML_Char **attributes)
     }
     double before = table->rows ? table->data[(table->rows - 1) * self->columns] : 0;
     if (!self->in_engine)
-        refuse(self, "eng-data outside of an engine");
+        refuse(self, "found eng-data outside of an engine");
     else if (row[0] < before)
-        refuse(self, "a time before that of the point before");
+        refuse(self, "the time is less than that of the point before");
     else if (row[0] > 10000)
-        refuse(self, "a time of more than 10000 s");
+        refuse(self, "the time is larger than 10000 s");
     else if (table->rows == MOST_ROWS)
         refuse(self, "more than %d points", MOST_ROWS);
     if (self->lines->failed)
@@ -125,7 +127,7 @@ static void begin_doctype(void *user, const XML_Char *name, const XML_Char *syst
                           const XML_Char *public, int internal)
 {
     (void)name, (void)system, (void)public, (void)internal;
-    refuse(user, "a DOCTYPE, which no file of an engine has");
+    refuse(user, "found a DOCTYPE, which an engine file must not have");
 }
 
 // Masses are those of the whole motor: where the file has those of the propellant alone, the rest
@@ -149,15 +151,15 @@ static void parse(rocksim_reader *self)
     XML_SetElementHandler(self->parser, begin_element, end_element);
     XML_SetStartDoctypeDeclHandler(self->parser, begin_doctype);
     if (source->length > INT_MAX)
-        refuse(self, "a file of more than 2 GiB");
+        refuse(self, "the file is larger than 2 GiB");
     else if (XML_Parse(self->parser, source->text, (int)source->length, 1) != XML_STATUS_OK)
         refuse(self, "no XML: %s", XML_ErrorString(XML_GetErrorCode(self->parser)));
     if (self->lines->failed)
         return;
     if (self->engines == 0)
-        refuse(self, "no engine in this file");
+        refuse(self, "found no engine in this file");
     else if (self->table->rows == 0)
-        refuse(self, "an engine without eng-data");
+        refuse(self, "the engine has no eng-data");
     else if (self->columns > THRUST_COLUMNS)
         complete(self);
 }

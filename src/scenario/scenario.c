@@ -45,7 +45,7 @@ static tree_node *load_included(scenario_reader *reader, const tree_node *value,
     if (cycle)
         reader_refuse(reader, value->at, "include", "file \"%s\" includes itself", opened->name);
     else if (inner.depth > READER_MAX_INCLUDES)
-        reader_refuse(reader, value->at, "include", "more than %d files one inside the other",
+        reader_refuse(reader, value->at, "include", "files are included more than %d deep",
                       READER_MAX_INCLUDES);
     else
         root = load(reader, opened, &inner);
@@ -198,8 +198,7 @@ static tree_node *tree_of_point(scenario_reader *reader, const whole_scenario *w
 {
     if (point > ld_scenario_points(axes)) {
         reader_refuse(reader, (text_place){whole->source, 0, 0}, "sweep",
-                      "there is no point %d: they go from 1 to %d", point,
-                      ld_scenario_points(axes));
+                      "found point %d, expected 1 to %d", point, ld_scenario_points(axes));
         return NULL;
     }
     if (point == 0)
@@ -398,8 +397,9 @@ ld_status scenario_read_point(const char *path, const char *const *sets, size_t 
     size_t length;
     ld_error error;
     if (is_stdin(path) && point > 0)
-        return refuse_file(messages, name, "sweep", LD_ERR_INPUT,
-                           "its points are read one by one: give a file, not standard input");
+        return refuse_file(
+            messages, name, "sweep", LD_ERR_INPUT,
+            "a sweep reads its file more than once; give a file, not standard input");
     ld_status status = text_file_read(path, READER_MAX_BYTES, &text, &length, &error);
     if (status) {
         snprintf(why, sizeof why, "file \"%s\" %s", path, error.text);

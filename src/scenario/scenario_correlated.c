@@ -56,10 +56,11 @@ static bool read_factor(const group_reader *self, const tree_node *name)
     for (int i = 0; i < scatter->factor_count; i++)
         suggestion_offer(&best, scatter->factor[i].path);
     if (best.name)
-        return refuse(self, name, key, "is not scattered, did you mean \"%s\"?", best.name);
+        return refuse(self, name, key, "is not an uncertain input, did you mean \"%s\"?",
+                      best.name);
     if (!number)
         return refuse(self, name, key, "%s", why);
-    return refuse(self, name, key, "is none of scatter.factors%s", "");
+    return refuse(self, name, key, "is not one of scatter.factors%s", "");
 }
 
 static bool read_factors(const group_reader *self)

@@ -37,7 +37,7 @@ static void refuse_value(scenario_reader *reader, const field_row *f, const tree
     char expected[FIELD_EXPECTATION], quoted[64];
     field_expectation(f, expected, sizeof expected);
     if (tree_is_empty(value))
-        reader_refuse(reader, value->key_at, path, "has no value; expected %s", expected);
+        reader_refuse(reader, value->key_at, path, "found no value; expected %s", expected);
     else
         reader_refuse(reader, value->at, path, "found %s; expected %s",
                       value->kind == NODE_SCALAR ? reader_quote(value->text, quoted)
@@ -76,8 +76,8 @@ static bool read_components(scenario_reader *reader, const field_row *f, const t
             i++;
         if (i == f->count) {
             reader_refuse(reader, member->key_at, key_path,
-                          "no component; this vector has %s%sy, z", f->count == 4 ? "w, " : "",
-                          f->count >= 3 ? "x, " : "");
+                          "is not a component; this vector has %s%sy, z",
+                          f->count == 4 ? "w, " : "", f->count >= 3 ? "x, " : "");
             good = false;
         } else if (is_scalar(reader, f, member, key_path)) {
             good &= quantity_read(reader, f, member->at, key_path, member->text, &values[i], 1);
@@ -335,7 +335,7 @@ static bool read_table_file(scenario_reader *reader, const field_row *f, const t
         return false;
     if (sounding && f->other && field_switch(base, f) == LD_WIND_LAUNCHER) {
         reader_refuse(reader, value->at, path,
-                      "a sounding's wind is along north and east; it goes with axes: geographic");
+                      "a sounding gives the wind to north and east; it requires axes: geographic");
         return false;
     }
     return true;
@@ -484,7 +484,7 @@ static void select_entry(scenario_reader *reader, const field_row *f, const tree
     name_suggestion best = suggestion_begin(name->text);
     for (int k = 0; k < field_switch(base, f); k++)
         suggestion_offer(&best, field_entry_const(base, f, k));
-    reader_refuse(reader, name->at, path, "found %s, no such name%s%s%s",
+    reader_refuse(reader, name->at, path, "found %s, an unknown name%s%s%s",
                   reader_quote(name->text, quoted), best.name ? "; did you mean \"" : "",
                   best.name ? best.name : "", best.name ? "\"?" : "");
 }
@@ -653,7 +653,7 @@ static void refuse_without_form(scenario_reader *reader, const field_block *bloc
             }
         }
     }
-    reader_refuse(reader, map->key_at, path, "more keys are needed: %s", keys);
+    reader_refuse(reader, map->key_at, path, "missing keys: %s", keys);
 }
 
 static void read_key(scenario_reader *reader, const field_block *block, const field_row *f,
@@ -667,7 +667,7 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
     if (value && fits) {
         read_field(reader, f, value, base, key_path);
     } else if (value) {
-        reader_refuse(reader, value->key_at, key_path, "does not go with %s%s%s",
+        reader_refuse(reader, value->key_at, key_path, "is not allowed with %s%s%s",
                       block->form_key ? block->form_key : "", block->form_key ? ": " : "",
                       field_word_of(block->form, form)->name);
     } else if (f->kind == FIELD_SELECTION && fits) {
@@ -676,7 +676,7 @@ static void read_key(scenario_reader *reader, const field_block *block, const fi
         const tree_node *taken = tree_taken(map, f->name);
         field_expectation(f, expected, sizeof expected);
         reader_refuse(reader, taken ? taken->key_at : map->key_at, key_path, "%s; expected %s",
-                      taken ? "taken away here, but needed" : "missing", expected);
+                      taken ? "removed here, but required" : "missing", expected);
     }
 }
 
@@ -766,8 +766,7 @@ void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_mod
 {
     if (root->kind != NODE_MAP) {
         reader_refuse(reader, root->at, "",
-                      "a scenario is a block of keys, beginning with "
-                      "\"launchdyn: 1\"");
+                      "expected a scenario: a block of keys that begins with \"launchdyn: 1\"");
         return;
     }
     read_block(reader, &scenario_block, root, model, "");

@@ -177,7 +177,7 @@ void reader_finish_messages(scenario_reader *reader)
     // the last one kept makes room
     ld_message *last = &messages->item[messages->count - 1];
     free(last->text);
-    last->text = strdup("and more like these, which are not shown");
+    last->text = strdup("more errors of this kind are not shown");
     reader->no_memory = reader->no_memory || !last->text;
 }
 

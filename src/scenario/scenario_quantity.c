@@ -50,9 +50,9 @@ const char *number_parse(const char *text, double *value, const char **reason)
     *value = strtod(text, NULL);
     bool nothing = strcspn(text, "123456789") >= (size_t)(mantissa_end - text);
     if (!isfinite(*value))
-        *reason = "too large a number";
+        *reason = "the number is too large";
     else if (!nothing && fabs(*value) < DBL_MIN)
-        *reason = "too small a number";
+        *reason = "the number is too small";
     return *reason ? NULL : end;
 }
 
@@ -111,7 +111,7 @@ static void refuse_unit(scenario_reader *reader, const field_row *f, text_place 
         reader_refuse(reader, place, path, "found %s; unknown unit %s, expected %s", found,
                       reader_quote(unknown, quoted), expected);
     else
-        reader_refuse(reader, place, path, "found %s, a unit of another dimension; expected %s",
+        reader_refuse(reader, place, path, "found %s, a unit of the wrong dimension; expected %s",
                       found, expected);
 }
 
@@ -169,8 +169,8 @@ bool quantity_read(scenario_reader *reader, const field_row *f, text_place place
     for (int i = 0; i < count; i++) {
         values[i] = units_scale(q.number[i], factor);
         bool large = !isfinite(values[i]), small = q.number[i] != 0 && fabs(values[i]) < DBL_MIN;
-        const char *size = large   ? ", in SI too large a number"
-                           : small ? ", in SI too small a number"
+        const char *size = large   ? ", which is too large in SI units"
+                           : small ? ", which is too small in SI units"
                                    : "";
         if (large || small || !field_in_range(f->range, values[i])) {
             reader_refuse(reader, place, path, "found %s%s; expected %s", found, size, expected);

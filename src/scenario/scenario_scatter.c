@@ -135,7 +135,8 @@ static bool read_word(const factor_reader *self, const tree_node *node, const ch
         reader_refuse_word(self->reader, node->at, path, node->text,
                            ld_nearest_name(node->text, words, second ? 2 : 1), expected);
     else
-        reader_refuse(self->reader, node->at, path, "found no word; expected %s", expected);
+        reader_refuse(self->reader, node->at, path, "found a list or a block; expected %s",
+                      expected);
     return false;
 }
 
@@ -166,7 +167,7 @@ static bool read_bounds(const factor_reader *self)
     char path[256];
     if (within && between) {
         reader_refuse(self->reader, between->key_at, path_of(self, "between", path, sizeof path),
-                      "stands beside within; one of them is enough");
+                      "is not allowed together with within; give one of them");
         return false;
     }
     return (!within ||
@@ -195,7 +196,7 @@ static const tree_node *find_distribution(factor_reader *self)
         const tree_node *node = tree_member(self->map, key_names[i]);
         if (node && found) {
             reader_refuse(self->reader, node->key_at, path_of(self, node->key, path, sizeof path),
-                          "stands beside %s; a factor has one distribution", found->key);
+                          "is given together with %s; a factor has one distribution", found->key);
             return NULL;
         }
         if (node) {
@@ -223,7 +224,7 @@ static bool keys_go_together(const factor_reader *self)
             other = "discrete";
         path_of(self, key, path, sizeof path);
         if (other)
-            reader_refuse(self->reader, member->key_at, path, "goes with %s only", other);
+            reader_refuse(self->reader, member->key_at, path, "is allowed with %s only", other);
         good = good && !other;
     }
     return good;
@@ -316,9 +317,9 @@ static void refuse_same(scenario_reader *reader, const tree_node *node, const ld
             continue;
         snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
         if (scatter->factor[last].together.count)
-            reader_refuse(reader, node->key_at, path, "%s stands above already", own);
+            reader_refuse(reader, node->key_at, path, "%s is given above already", own);
         else
-            reader_refuse(reader, node->key_at, path, "is the same as %s, which stands above", own);
+            reader_refuse(reader, node->key_at, path, "is the same key as %s above", own);
     }
 }
 

@@ -47,13 +47,11 @@ static bool goes_beside(scenario_reader *reader, const scenario_axis *axis,
         const char *above = other->keys.path[k];
         if (axis->paths && overlap(path, above))
             return refuse(reader, node->key_at, node->key,
-                          "%s, or what holds it or lies in it, stands above already", path);
+                          "%s, or a block above or below it, is swept above already", path);
         if (strcmp(path, above) == 0)
-            return refuse(reader, node->key_at, node->key, "is the same as %s, which stands above",
-                          above);
+            return refuse(reader, node->key_at, node->key, "is the same key as %s above", above);
         if (overlap(path, above))
-            return refuse(reader, node->key_at, node->key, "goes over %s, which stands above",
-                          above);
+            return refuse(reader, node->key_at, node->key, "overlaps %s above", above);
     }
     return true;
 }
@@ -66,7 +64,8 @@ static bool may_be_swept(scenario_reader *reader, const scenario_sweep *before,
     const tree_node *node = axis->node;
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (overlap(path, own[i]))
-            return refuse(reader, node->key_at, node->key, "the study itself is not swept%s", "");
+            return refuse(reader, node->key_at, node->key,
+                          "keys of the study itself cannot be swept%s", "");
     for (int i = 0; i < before->count; i++)
         if (!goes_beside(reader, axis, &before->axis[i], path))
             return false;

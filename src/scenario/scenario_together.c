@@ -11,12 +11,12 @@ static const char *wrong_with_name(const char *name)
     static const char *const keys[] = {"sample", "point", "status", "reason", "rocket", "tube"};
     size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_-");
     if (length == 0 || name[length] || length >= LD_MAX_NAME || name[0] < 'a')
-        return "a name for several keys begins with a small letter and has small letters, digits, "
-               "- and _";
+        return "expected a name that begins with a lower-case letter and has lower-case letters, "
+               "digits, - and _ only";
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strcmp(name, keys[i]) == 0)
-            return "is a column of every study; give another name";
-    return study_result_like(name) ? "is the name of a result; give another name" : NULL;
+            return "is the name of a column of every study; choose another name";
+    return study_result_like(name) ? "is the name of a result; choose another name" : NULL;
 }
 
 const tree_node *together_paths(scenario_reader *reader, const tree_node *block, const char *path)

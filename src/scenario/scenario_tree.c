@@ -230,9 +230,9 @@ static bool next_event(builder *b)
 static bool is_properly_plain(builder *b, const yaml_char_t *anchor, const yaml_char_t *tag)
 {
     if (anchor)
-        refuse(b, b->event.start_mark, "anchors (&) are not part of the scenario language");
+        refuse(b, b->event.start_mark, "anchors (&) are not allowed in a scenario");
     else if (tag)
-        refuse(b, b->event.start_mark, "tags (!) are not part of the scenario language");
+        refuse(b, b->event.start_mark, "tags (!) are not allowed in a scenario");
     return !b->failed;
 }
 
@@ -254,7 +254,7 @@ static void add_key(builder *b, tree_node *map, tree_node *key, tree_node *value
 {
     const tree_node *twin = tree_member(map, key->text);
     if (twin) {
-        reader_refuse(b->reader, key->at, b->path, "stands here a second time; first in line %d",
+        reader_refuse(b->reader, key->at, b->path, "is given twice, first in line %d",
                       twin->key_at.line);
         return;
     }
@@ -314,7 +314,7 @@ static tree_node *build_value(builder *b, int depth)
     else if (++b->reader->nodes > READER_MAX_NODES)
         refuse(b, event.start_mark, "too many values");
     else if (event.type == YAML_ALIAS_EVENT)
-        refuse(b, event.start_mark, "aliases (*) are not part of the scenario language");
+        refuse(b, event.start_mark, "aliases (*) are not allowed in a scenario");
     else if (event.type == YAML_SCALAR_EVENT &&
              is_properly_plain(b, event.data.scalar.anchor, event.data.scalar.tag)) {
         value = tree_new(b->reader, NODE_SCALAR, place_of(b, event.start_mark));
@@ -323,7 +323,7 @@ static tree_node *build_value(builder *b, int depth)
             value->text = pool_text(b->reader, (const char *)event.data.scalar.value,
                                     event.data.scalar.length);
             if (value->text && strlen(value->text) != event.data.scalar.length)
-                refuse(b, event.start_mark, "a zero character inside a value");
+                refuse(b, event.start_mark, "found a zero byte in a value");
         }
     } else if (event.type == YAML_MAPPING_START_EVENT &&
                is_properly_plain(b, event.data.mapping_start.anchor,
@@ -366,7 +366,7 @@ static void expect_end(builder *b)
     bool end = false;
     while (!end && next_event(b)) {
         if (b->event.type == YAML_DOCUMENT_START_EVENT)
-            refuse(b, b->event.start_mark, "a second document (---) in one file");
+            refuse(b, b->event.start_mark, "found a second document (---); expected one per file");
         end = b->event.type == YAML_STREAM_END_EVENT;
         yaml_event_delete(&b->event);
     }
@@ -412,7 +412,7 @@ tree_node *tree_at_path(scenario_reader *reader, const char *path, text_place at
         if (end == begin || (*end && *end != '.') || depth >= READER_MAX_DEPTH) {
             here.column += (int)(end - begin);
             reader_refuse(reader, here, "",
-                          "not a path of keys joined by dots, such as rocket.mass");
+                          "expected a path of keys joined by dots, such as rocket.mass");
             return NULL;
         }
         tree_node *inner = *end ? tree_new(reader, NODE_MAP, here) : value;

@@ -25,14 +25,16 @@ static void refuse_name(scenario_reader *reader, const tree_node *node, const ch
     const char *near = study_result_find(things, result).row ? result : *whole ? whole : best;
     if (*near && near != whole && statistic)
         reader_refuse(reader, node->key_at, path,
-                      "no statistic of a result, did you mean \"%s.%s\"?", near, statistic);
+                      "is not a statistic of a result, did you mean \"%s.%s\"?", near, statistic);
     else if (*near)
-        reader_refuse(reader, node->key_at, path,
-                      "no statistic of a result, did you mean \"%s.mean\" or \"%s.deviation\"?",
-                      near, near);
+        reader_refuse(
+            reader, node->key_at, path,
+            "is not a statistic of a result, did you mean \"%s.mean\" or \"%s.deviation\"?", near,
+            near);
     else
-        reader_refuse(reader, node->key_at, path,
-                      "no statistic of a result; expected such as t_rear.mean or yaw.deviation");
+        reader_refuse(
+            reader, node->key_at, path,
+            "is not a statistic of a result; expected, for example, t_rear.mean or yaw.deviation");
 }
 
 static void read_half_width(scenario_reader *reader, const tree_node *node, const char *path,
@@ -42,7 +44,7 @@ static void read_half_width(scenario_reader *reader, const tree_node *node, cons
     char expected[192];
     if (node->kind != NODE_SCALAR || tree_is_empty(node)) {
         field_expectation(&row, expected, sizeof expected);
-        reader_refuse(reader, node->at, path, "expected half a width in %%, or %s", expected);
+        reader_refuse(reader, node->at, path, "expected a half width in %%, or %s", expected);
         return;
     }
     size_t length = strlen(node->text);

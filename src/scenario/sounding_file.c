@@ -183,8 +183,8 @@ static void check_columns(sounding *self)
     if (!missing)
         return;
     snprintf(text, sizeof text,
-             "this header has no column of %s that is known; a table of one's own has units in "
-             "brackets",
+             "found no known column of %s in this header; a table of other columns requires units "
+             "in brackets",
              missing);
     line_refuse(self->lines, 0, text);
 }
@@ -193,8 +193,8 @@ static void check_rows(const sounding *self)
 {
     if (!self->lines->failed && self->table->rows == 0)
         line_refuse(self->lines, 0,
-                    is_of_air(self->format) ? "no row with height, pressure and temperature"
-                                            : "no row with height and wind");
+                    is_of_air(self->format) ? "found no row with height, pressure and temperature"
+                                            : "found no row with height and wind");
 }
 
 bool sounding_is_header(const line_reader *lines)
@@ -253,7 +253,7 @@ static bool take_units(sounding *self)
     line_reader *lines = self->lines;
     if (!line_next(lines, '-', false)) {
         if (!lines->failed)
-            line_refuse(lines, 0, "the list ends before its units");
+            line_refuse(lines, 0, "the list ends before the line of units");
         return false;
     }
     for (int i = 0; i < QUANTITIES; i++) {
@@ -280,9 +280,9 @@ static bool is_in_columns(const sounding *self)
     for (int field = 0, before = -1; field < at->count; field++) {
         int column = list_column(self, field);
         if (column <= before || column >= self->columns) {
-            line_refuse(self->lines, field,
-                        "a number that is in no column of its own: it must end below the end of "
-                        "a name");
+            line_refuse(
+                self->lines, field,
+                "found a number outside the columns; it must end below the end of a column's name");
             return false;
         }
         before = column;
@@ -349,8 +349,8 @@ static void read_gsd_row(sounding *self, double speed, double *pressure)
     forget(value);
     if (lines->at.count != GSD_COLUMNS && lines->at.count != GSD_COLUMNS + GSD_MORE) {
         line_refuse(lines, 0,
-                    "a level has seven numbers: its type, pressure, height, temperature, dew "
-                    "point, direction and speed of the wind; or ten, with time, bearing and range");
+                    "expected a level of seven numbers (type, pressure, height, temperature, dew "
+                    "point, wind direction, wind speed) or of ten (also time, bearing, range)");
         return;
     }
     for (int i = 1; i < GSD_COLUMNS; i++) {
@@ -399,7 +399,8 @@ void sounding_read_text(line_reader *lines, const table_format *format, ld_table
             snprintf(wind_unit, sizeof wind_unit, "%s", lines->at.field[lines->at.count - 1]);
         if (before == 3 && type >= GSD_DATA && type <= GSD_LAST_DATA) {
             if (strcmp(wind_unit, "kt") != 0 && strcmp(wind_unit, "ms") != 0) {
-                line_refuse(lines, 0, "the line above must end with the wind's unit, kt or ms");
+                line_refuse(lines, 0,
+                            "expected the line above to end with the wind's unit, kt or ms");
                 return;
             }
             read_gsd(&self, wind_unit);
@@ -409,6 +410,6 @@ void sounding_read_text(line_reader *lines, const table_format *format, ld_table
     }
     if (!lines->failed)
         line_refuse(lines, 0,
-                    "no sounding: neither a list with the columns PRES, HGHT, TEMP, ... of the "
-                    "University of Wyoming nor the lines of NOAA's format GSD");
+                    "not a sounding; expected a list of the University of Wyoming (columns PRES, "
+                    "HGHT, TEMP, ...) or NOAA's GSD format");
 }

@@ -16,18 +16,18 @@ static void read_rasp_header(line_reader *lines)
     double propellant, total, value;
     if (!line_next(lines, ';', false)) {
         if (!lines->failed)
-            line_refuse(lines, 0, "no engine in this file");
+            line_refuse(lines, 0, "found no engine in this file");
         return;
     }
     if (lines->at.count < 7) {
         line_refuse(lines, 0,
-                    "the header of an engine has seven fields: name, diameter, length, "
-                    "delays, propellant mass, total mass, manufacturer");
+                    "expected a header of seven fields: name, diameter, length, delays, propellant "
+                    "mass, total mass, manufacturer");
         return;
     }
     if (line_number(lines, 1, &value) && line_number(lines, 2, &value) &&
         line_number(lines, 4, &propellant) && line_number(lines, 5, &total) && propellant > total)
-        line_refuse(lines, 4, "more propellant than the whole engine weighs");
+        line_refuse(lines, 4, "the propellant mass exceeds the total mass of the engine");
 }
 
 // One point of the curve; the point 0, 0 is implied where the first is later.
@@ -44,12 +44,12 @@ static bool read_rasp_point(line_reader *lines, ld_table *table)
     double before = table->rows ? table->data[2 * (table->rows - 1)] : 0;
     if (row[0] < before)
         line_refuse(lines, 0,
-                    table->rows ? "a time before that of the line above"
-                                : "a time before ignition");
+                    table->rows ? "the time is less than that of the line above"
+                                : "the time is before the ignition");
     else if (row[0] > 10000)
-        line_refuse(lines, 0, "a time of more than 10000 s");
+        line_refuse(lines, 0, "the time is larger than 10000 s");
     else if (table->rows >= 2 && row[0] == before && table->data[2 * (table->rows - 2)] == before)
-        line_refuse(lines, 0, "a time that stands there a third time");
+        line_refuse(lines, 0, "the time is given three times");
     if (lines->failed)
         return false;
     if (table->rows == 0 && row[0] > 0 && !line_append(lines, table, 2, origin))
@@ -70,9 +70,10 @@ static void read_rasp(line_reader *lines, ld_table *table)
     if (lines->failed)
         return;
     if (table->rows == 0)
-        line_refuse(lines, 0, "an engine without a thrust curve");
+        line_refuse(lines, 0, "the engine has no thrust curve");
     else if (line_next(lines, ';', false))
-        line_refuse(lines, 0, "the curve ends at thrust 0; more lines (a second engine?) follow");
+        line_refuse(lines, 0,
+                    "the curve ends at thrust 0, but more lines follow (a second engine?)");
 }
 
 // ---- CSV: a header such as "t [s], x [m], .., roll [deg]", then rows of numbers
@@ -112,7 +113,7 @@ static void read_cell(line_reader *lines, const field_row *column, int i, double
     else
         *value = units_scale(*value, factor);
     if (!isfinite(*value)) {
-        line_refuse(lines, i, "too large a number");
+        line_refuse(lines, i, "the number is too large");
     } else if (!field_in_range(column->range, *value)) {
         field_range_text(column, expected, sizeof expected);
         snprintf(text, sizeof text, "found %.40s; expected %s", lines->at.field[i], expected);
@@ -138,7 +139,7 @@ static void read_csv_row(line_reader *lines, const table_format *format, const d
         line_refuse(lines, turned, NO_UNIT_QUATERNION);
     if (!lines->failed && table->rows > 0 &&
         row[0] <= table->data[(table->rows - 1) * table->columns]) {
-        snprintf(text, sizeof text, "%s does not come after that of the row before",
+        snprintf(text, sizeof text, "%s is not larger than that of the row before",
                  format->column[0].name);
         line_refuse(lines, 0, text);
     }
@@ -168,7 +169,7 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
     while (line_next(lines, '#', true) && !lines->failed)
         read_csv_row(lines, format, factor, table);
     if (!lines->failed && table->rows == 0)
-        line_refuse(lines, 0, "no row of numbers");
+        line_refuse(lines, 0, "found no row of numbers");
 }
 
 bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,

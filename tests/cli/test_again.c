@@ -242,9 +242,9 @@ static void test_damaged_and_foreign_folders(void **state)
     // a scenario whose second file is not there
     must("launchdyn run examples/engine.yaml --out good -q && cp good/history.h5 a/history.h5");
     take_away("source/files/3");
-    expect_complaint(AGAIN "a", 2,
-                     "rocket.motor.thrust: file \"reference-motor.eng\" is not among "
-                     "the texts that are kept\n");
+    expect_complaint(
+        AGAIN "a", 2,
+        "rocket.motor.thrust: file \"reference-motor.eng\" is not among the stored texts\n");
     expect_complaint(AGAIN "a examples/fixed.yaml", 2, "it excludes FILE and --set\n");
     expect_complaint(AGAIN "a --set title=x", 2, "it excludes FILE and --set\n");
     expect_complaint(AGAIN "good --csv", 2, "--csv needs --out DIR\n");

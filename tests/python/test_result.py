@@ -76,7 +76,7 @@ class TestBits(Case):
             result.plot("tip.yy")
 
     def test_none_takes_away_what_another_base_has(self):
-        with self.assertRaisesRegex(ld.InputError, "base.elevation: does not go with"):
+        with self.assertRaisesRegex(ld.InputError, "base.elevation: is not allowed with"):
             ld.Scenario.read(FIXED, {"base.kind": "external"})
         scenario = ld.Scenario.read(FIXED, {"base": None, "base.kind": "external"})
         with scenario.begin(ld.BaseFrame((0, 0, 0), (1, 0, 0, 0))) as run:

@@ -100,7 +100,7 @@ static void test_wrong_values_are_refused(void **state)
     ld_model *model = read_fixed(NULL);
     check_refused(model, "rocket.mas", "61 kg", "did you mean \"mass\"?");
     check_refused(model, "rocket.mass", "61", "without a unit");
-    check_refused(model, "rocket.mass", "61 m", "another dimension");
+    check_refused(model, "rocket.mass", "61 m", "wrong dimension");
     check_refused(model, "rocket.mass", "-1 kg", "> 0 kg");
     check_refused(model, "rocket.adaptors.raer.at", "1 m", "no entry \"raer\"");
     ld_model_free(model);
@@ -215,7 +215,7 @@ static void test_values_are_told(void **state)
     assert_true(rows > 1);
 
     assert_int_equal(ld_model_text(model, "rocket", text, sizeof text, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "rocket is more than a line");
+    assert_string_equal(error.text, "rocket does not fit on one line");
     assert_int_equal(ld_model_text(model, "rocket.motor.thrust", text, sizeof text, &error),
                      LD_ERR_INPUT);
     assert_int_equal(ld_model_text(model, "rocket.mas", text, sizeof text, &error), LD_ERR_INPUT);
@@ -244,7 +244,7 @@ static void test_a_dot_at_the_end_is_no_path(void **state)
         printf("%s %s\n", paths[i], error.text);
         assert_int_equal(ld_model_text(model, paths[i], text, sizeof text, &error), LD_ERR_INPUT);
         printf("%s %s\n", paths[i], error.text);
-        check_refused(model, paths[i], "1", "not a path of keys joined by dots");
+        check_refused(model, paths[i], "1", "expected a path of keys joined by dots");
     }
     ld_model_free(model);
 }

@@ -221,7 +221,7 @@ static void test_messages(void **state)
     model_clear(&model);
     expect_message(text, 2, "tubes.modes.bending", 50, 20, "need at least 6 elements, not 5");
     expect_message(text, 3, "firing.order.2", 4, 37, "the layout has tubes 1 to 18");
-    expect_message(text, 5, "sweep", 0, 0, "no point 5: they go from 1 to 4");
+    expect_message(text, 5, "sweep", 0, 0, "found point 5, expected 1 to 4");
 }
 
 // Texts that would mean something else in a list of YAML without their quotes.

@@ -126,7 +126,7 @@ static void test_what_is_not_there(void **state)
     assert_string_equal(error.text, "the study has no column \"rnage\"; did you mean \"range\"?");
     assert_null(statistics);
     assert_int_equal(ld_study_data_values(data, 3, &name, 1, &values, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "there is no point 3: they go from 1 to 2");
+    assert_string_equal(error.text, "found point 3, expected 1 to 2");
     assert_null(values);
     assert_int_equal(ld_study_data_open(in("nothing"), &other, &error), LD_ERR_INPUT);
     assert_null(other);

@@ -189,7 +189,7 @@ static bool refuse_end(const walk *w, const char *path)
     if (w->why[0])
         return false;
     if (w->rest[0] || !path[0])
-        return refuse(w, "not a path of keys joined by dots, such as rocket.mass");
+        return refuse(w, "expected a path of keys joined by dots, such as rocket.mass");
     return refuse(w, "%s is a block: name one of its keys", w->place->path);
 }
 

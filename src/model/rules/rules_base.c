@@ -78,7 +78,7 @@ static void motion_rows_rule(const rule_set *rules, const ld_table *motion)
         const double *row = motion->data + i * columns;
         if (i > 0 && row[0] <= motion->data[(i - 1) * columns])
             broken(rules, "base.motion.table.#", (int)i + 1,
-                   "t does not come after that of the row before");
+                   "t is not larger than that of the row before");
         if (columns == 8 && !field_is_unit(row + 4))
             broken(rules, "base.motion.table.#", (int)i + 1, NO_UNIT_QUATERNION);
     }

@@ -54,5 +54,6 @@ void guide_rules(const rule_set *rules)
     else
         bore_rules(rules);
     if (model->rocket.lock.holds_roll == LD_HOLD_YES && model->tubes.slot.kind == LD_SLOT_HELIX)
-        broken(rules, "rocket.lock.holds_roll", 0, "does not go with a slot, which holds the roll");
+        broken(rules, "rocket.lock.holds_roll", 0,
+               "is not allowed with a slot, which holds the roll");
 }

@@ -59,7 +59,7 @@ static ld_status read_columns(ld_study_data *self, int number, const char *const
 {
     const ld_study_point *point = ld_study_data_point(self, number);
     if (!point)
-        return ld_fail(error, LD_ERR_INPUT, "there is no point %d: they go from 1 to %d", number,
+        return ld_fail(error, LD_ERR_INPUT, "found point %d, expected 1 to %d", number,
                        self->data.point_count);
     const study_column **column = calloc(count ? count : 1, sizeof(void *));
     ld_status status =
