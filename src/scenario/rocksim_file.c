@@ -71,9 +71,8 @@ static void read_engine(rocksim_reader *self, const XML_Char **attributes)
     self->whole = 1e-3 * number(self, "engine", attributes, "initWt", 0);
     self->propellant = 1e-3 * number(self, "engine", attributes, "propWt", 0);
     if (self->propellant > self->whole)
-        refuse(
-            self,
-            "propWt exceeds initWt: the propellant mass exceeds the total mass of the engine");
+        refuse(self,
+               "propWt exceeds initWt: the propellant mass exceeds the total mass of the engine");
 }
 
 // A point of the curve; the point 0, 0 is implied where the first thrust is later.

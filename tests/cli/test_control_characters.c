@@ -124,8 +124,8 @@ static void test_names_of_files_and_arguments(void **state)
     expect_seen(WITH_EVIL "launchdyn \"$evil\"", 2, "unknown command " SEEN);
     expect_seen(WITH_EVIL "launchdyn help \"$evil\"", 2, "unknown command " SEEN);
     expect_seen(WITH_EVIL "launchdyn run \"--$evil\" x", 2, "--" SEEN);
-    expect_seen(WITH_EVIL "launchdyn study \"$evil\" x", 2, "not " SEEN);
-    expect_seen(WITH_EVIL "launchdyn study x --shard \"$evil\"", 2, "not " SEEN);
+    expect_seen(WITH_EVIL "launchdyn study \"$evil\" x", 2, "found " SEEN);
+    expect_seen(WITH_EVIL "launchdyn study x --shard \"$evil\"", 2, "found " SEEN);
     expect_seen(WITH_EVIL "launchdyn study show \"$evil\"", 2, SEEN);
     expect_seen(WITH_EVIL "launchdyn plot \"$evil\" -o x.svg", 2, SEEN);
     expect_seen(WITH_EVIL "launchdyn report \"$evil\"", 2, SEEN);

@@ -63,7 +63,7 @@ async function checkErrors(page, run) {
   const wanted = [...Array(6).fill(error.rates), error.yaw_rate, error.yaw_rate].map(twoDigits);
   check("errors of the rates stand beside them in the table", told.length === 8 && told.every((value, i) => value === wanted[i]), shown.join("; "));
   const answer = await page.$$eval(".answer small", (list) => list.map(({ textContent }) => textContent).filter((text) => text.includes("±")));
-  check("and in the answer", answer.length === 2 && answer.every((text) => Number(text.split("± ")[1]) === twoDigits(error.rates)), answer.join("; "));
+  check("and in the answer", answer.length === 2 && answer.every((text) => parseFloat(text.split("± ")[1]) === twoDigits(error.rates)), answer.join("; "));
 }
 
 // What one reads in ten seconds: replay, drawing and answer in the first window, the rest in 5000 pixels.
