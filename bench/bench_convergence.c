@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "scenario/scenario.h"
 

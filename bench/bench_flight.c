@@ -8,6 +8,7 @@
 
 #include "flight/flight_alone.h"
 #include "flight/flight_lanes.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "state/simulation.h"
 

@@ -8,6 +8,7 @@
 #include "integration/integrator.h"
 #include "launchdyn/history.h"
 #include "launchdyn/simulation.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "scenario/scenario.h"
 

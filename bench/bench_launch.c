@@ -6,6 +6,7 @@
 
 #include "bench_sample.h"
 #include "launch/launch_run.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"

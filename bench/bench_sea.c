@@ -1,6 +1,7 @@
 // Speed of a ship's motion in its sea: set-up for 6 s with 200 waves, and one evaluation of place,
 // velocity and acceleration; of a measured motion.
 #include "bench_sample.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "systems/bases/motion_table.h"
 #include "systems/bases/sea_motion.h"

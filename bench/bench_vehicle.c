@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bench_sample.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"

@@ -4,7 +4,8 @@
 #define LD_ELEMENTS_GUIDE_FORCES_H
 
 #include "math/vectors/mat3.h"
-#include "model/model.h"
+#include "model/blocks/limits.h"
+#include "model/blocks/tubes.h"
 
 typedef struct guide_wrench {
     v3 f, m; // [N], [N m]

@@ -3,8 +3,11 @@
 #ifndef LD_ELEMENTS_MOTOR_H
 #define LD_ELEMENTS_MOTOR_H
 
+#include <stddef.h>
+
+#include "launchdyn/status.h"
 #include "math/vectors/mat3.h"
-#include "model/model.h"
+#include "model/blocks/rocket.h"
 
 // Mass data of the rocket at one instant; rates for the energy balance.
 typedef struct rocket_mass {

@@ -4,7 +4,7 @@
 
 #include "environment/atmosphere_layer.h"
 #include "math/curves/curves.h"
-#include "model/model.h"
+#include "model/blocks/environment.h"
 
 typedef struct atmosphere {
     ld_atmosphere_kind kind;

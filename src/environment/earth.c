@@ -3,6 +3,7 @@
 
 #include "environment/earth_real.h"
 #include "math/functions.h"
+#include "model/model.h"
 
 static double or_default(double value, double otherwise)
 {

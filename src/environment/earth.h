@@ -7,8 +7,8 @@
 
 #include <stdbool.h>
 
+#include "launchdyn/model.h"
 #include "math/vectors/mat3.h"
-#include "model/model.h"
 
 typedef struct earth {
     bool flat;

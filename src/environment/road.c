@@ -1,5 +1,6 @@
 #include "environment/road.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,8 @@
 
 #include <stddef.h>
 
-#include "model/model.h"
+#include "launchdyn/status.h"
+#include "model/blocks/road.h"
 
 typedef enum road_track { ROAD_LEFT, ROAD_RIGHT, ROAD_TRACKS } road_track;
 

@@ -4,7 +4,8 @@
 
 #include <stddef.h>
 
-#include "model/model.h"
+#include "launchdyn/status.h"
+#include "model/blocks/sea.h"
 
 // A wave: the water stands at a cos(omega t - k (x cos heading + z sin heading) + phase) at (x, z)
 // of I, k = omega^2/g.

@@ -2,8 +2,11 @@
 #ifndef LD_ENVIRONMENT_TURBULENCE_H
 #define LD_ENVIRONMENT_TURBULENCE_H
 
+#include <stdbool.h>
+
+#include "launchdyn/status.h"
 #include "math/vec3.h"
-#include "model/model.h"
+#include "model/blocks/environment.h"
 
 enum { TURBULENCE_COMPONENTS = 3 };
 

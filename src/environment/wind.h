@@ -2,9 +2,12 @@
 #ifndef LD_ENVIRONMENT_WIND_H
 #define LD_ENVIRONMENT_WIND_H
 
+#include <stdbool.h>
+
 #include "math/curves/curves.h"
 #include "math/vec3.h"
-#include "model/model.h"
+#include "model/blocks/environment.h"
+#include "model/blocks/limits.h"
 
 typedef struct wind {
     bool present;

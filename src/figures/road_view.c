@@ -9,6 +9,7 @@
 #include "launchdyn/environment.h"
 #include "math/curves/spectrum.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "results/columns.h"
 
 enum { MOST_PLACES = 10000000, MOST_BANDS = 200, CLASSES = 8 };

@@ -9,6 +9,7 @@
 #include "launchdyn/environment.h"
 #include "math/curves/spectrum.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "results/columns.h"
 
 enum { LEVELS = 201, INSTANTS = 1001, MOST_PLACES = 1000000, MOST_BANDS = 100, AXES = 3 };

@@ -6,6 +6,7 @@
 
 #include "base/cpu_time.h"
 #include "flight/flight_history.h"
+#include "model/model.h"
 #include "quantities/summary_quantities.h"
 
 typedef struct alone_run {

@@ -5,6 +5,7 @@
 #include "flight/flight_history.h"
 #include "integration/step_limit.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "state/simulation.h"
 
 static void slopes(const double *t, const double *y, double *y_dot, void *self)

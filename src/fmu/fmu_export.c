@@ -14,6 +14,7 @@
 #include "launchdyn/scenario.h"
 #include "math/functions.h"
 #include "model/fields/source.h"
+#include "model/model.h"
 
 enum { NAME_SIZE = 512, IDENTIFIER_SIZE = 80 };
 

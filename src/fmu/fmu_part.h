@@ -7,7 +7,6 @@
 
 #include "fmu/fmu_runner.h"
 #include "launchdyn/fmu.h"
-#include "model/model.h"
 
 typedef struct fmu_part {
     ld_fmu_part which;

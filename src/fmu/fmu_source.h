@@ -3,9 +3,11 @@
 #ifndef LD_FMU_FMU_SOURCE_H
 #define LD_FMU_FMU_SOURCE_H
 
+#include <stddef.h>
 #include <stdio.h>
 
-#include "model/model.h"
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
 
 enum { FMU_SOURCE_NAME = 512 };
 

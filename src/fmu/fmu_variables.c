@@ -12,6 +12,7 @@
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
 #include "model/fields/digest.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 

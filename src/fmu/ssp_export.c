@@ -13,6 +13,7 @@
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
+#include "model/model.h"
 
 enum { PATH_SIZE = 4096, NAME_SIZE = 512, FMU_BYTES = 64 << 20, PARTS = 2 };
 

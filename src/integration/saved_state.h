@@ -3,9 +3,11 @@
 #ifndef LD_SIMULATION_SAVED_STATE_H
 #define LD_SIMULATION_SAVED_STATE_H
 
+#include <stddef.h>
+
 #include "base/archive.h"
+#include "launchdyn/model.h"
 #include "launchdyn/status.h"
-#include "model/model.h"
 
 typedef struct saved_state {
     int64_t magic, form; // `form` goes up when the bytes change

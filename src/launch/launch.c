@@ -12,6 +12,7 @@
 #include "launch/launch_measures.h"
 #include "launch/launch_rows.h"
 #include "launch/launch_summary.h"
+#include "model/model.h"
 #include "quantities/summary_quantities.h"
 #include "state/equilibrium.h"
 

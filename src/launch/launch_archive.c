@@ -4,6 +4,7 @@
 #include <limits.h>
 
 #include "launch/launch_flights.h"
+#include "model/model.h"
 #include "quantities/summary_quantities.h"
 
 static void archive_phase(archive *bytes, launching_phase *phase)

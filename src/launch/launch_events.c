@@ -8,6 +8,7 @@
 #include "launch/launch_rows.h"
 #include "launch/launch_run.h"
 #include "launch/launch_summary.h"
+#include "model/model.h"
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 

@@ -15,6 +15,7 @@
 
 #include "math/functions.h"
 #include "math/matrices/dense.h"
+#include "model/model.h"
 #include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "state/linearise.h"

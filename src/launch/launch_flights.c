@@ -6,6 +6,7 @@
 #include "base/cpu_time.h"
 #include "flight/flight_history.h"
 #include "flight/free_flight.h"
+#include "model/model.h"
 
 static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
                                   const double *state, ld_error *error)

@@ -3,6 +3,7 @@
 
 #include "integration/step_limit.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 

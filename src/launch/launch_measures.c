@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "model/model.h"
 #include "state/history.h"
 
 _Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS, "rows of a launch have no room");

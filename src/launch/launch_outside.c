@@ -8,6 +8,7 @@
 #include "launch/launch_events.h"
 #include "launch/launch_limits.h"
 #include "launch/launch_run.h"
+#include "model/model.h"
 #include "state/evaluation.h"
 #include "state/stepping/outside_steps.h"
 

@@ -2,6 +2,7 @@
 #include "launch/launch_rows.h"
 
 #include "base/cpu_time.h"
+#include "model/model.h"
 #include "state/geometry.h"
 #include "state/history.h"
 

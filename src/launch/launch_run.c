@@ -2,6 +2,8 @@
 
 #include <assert.h>
 
+#include "model/model.h"
+
 const double *run_present_state(ld_run *run)
 {
     if (!run->ahead)

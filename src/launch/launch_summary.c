@@ -7,6 +7,7 @@
 #include "base/printed.h"
 #include "launch/launch_exit_error.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "state/energy.h"
 #include "state/evaluation.h"
 #include "state/exit_figures.h"

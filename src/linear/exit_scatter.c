@@ -13,6 +13,7 @@
 #include "launchdyn/response.h"
 #include "linear/response_state.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "run/run.h"
 #include "run/simulation_build.h"

@@ -1,6 +1,7 @@
 // Linear response: frequency responses, spectra and root mean squares from the linearised
 // equations.
 #include "launchdyn/response.h"
+#include "model/model.h"
 
 #include <assert.h>
 #include <stdio.h>

@@ -2,7 +2,11 @@
 #ifndef LD_MODEL_GUIDE_H
 #define LD_MODEL_GUIDE_H
 
-#include "model/model.h"
+#include <stdbool.h>
+
+#include "model/blocks/contact.h"
+#include "model/blocks/guide.h"
+#include "model/blocks/limits.h"
 
 /// Fills `surface` with those of the guide, of a T-slot or a tower with the ones that these stand
 /// for; returns how many there are, 0 for a bore.

@@ -2,7 +2,9 @@
 #ifndef LD_MODEL_MASSES_H
 #define LD_MODEL_MASSES_H
 
-#include "model/model.h"
+#include <stddef.h>
+
+#include "model/blocks/rocket.h"
 
 enum { MASSES_TIME, MASSES_MASS, MASSES_CENTER, MASSES_AXIAL, MASSES_TRANSVERSE, MASSES_COLUMNS };
 

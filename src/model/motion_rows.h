@@ -3,7 +3,10 @@
 #ifndef LD_MODEL_MOTION_ROWS_H
 #define LD_MODEL_MOTION_ROWS_H
 
-#include "model/model.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/blocks/base.h"
 
 enum { MOTION_ANGLES = 6, MOTION_QUATERNION = 7 };
 

@@ -2,7 +2,9 @@
 #ifndef LD_SIMULATION_MEASURING_H
 #define LD_SIMULATION_MEASURING_H
 
-#include "model/model.h"
+#include <stdbool.h>
+
+#include "model/blocks/measure.h"
 
 // An instant of a rocket. The start is that of the run, of a later rocket when its tube took the
 // place of the one before; the end when the next one's does, of the last that of the launch; in a

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/model.h"
+
 quantity_things quantity_things_of(const ld_model *model)
 {
     static const char hinges[2][16] = {"azimuth", "elevation"};

@@ -2,9 +2,13 @@
 #ifndef LD_SIMULATION_QUANTITY_TABLE_H
 #define LD_SIMULATION_QUANTITY_TABLE_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "base/archive.h"
+#include "launchdyn/model.h"
 #include "launchdyn/results.h"
-#include "model/model.h"
+#include "model/blocks/limits.h"
 #include "model/quantity.h"
 
 // How many there are of each, and their names: that of item i stands i * stride behind the first;

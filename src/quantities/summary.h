@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 #include "launchdyn/simulation.h"
-#include "model/model.h"
+#include "model/blocks/limits.h"
 
 enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES };
 

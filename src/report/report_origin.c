@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "model/model.h"
+#include "model/fields/source.h"
 #include "results/json_text.h"
 
 // A text, where there is room for it.

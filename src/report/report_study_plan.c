@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "model/model.h"
 #include "report/report_origin.h"
 #include "results/json_text.h"
 #include "scenario/scenario.h"

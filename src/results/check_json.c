@@ -10,7 +10,7 @@
 #include "launchdyn/output.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
-#include "model/model.h"
+#include "model/blocks/limits.h"
 #include "results/json.h"
 
 enum { FORMAT = 1, MOST_LEVELS = 16 };

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "launchdyn/version.h"
+#include "model/model.h"
 #include "results/hdf5_support.h"
 #include "results/history.h"
 #include "results/origin.h"

@@ -9,6 +9,7 @@
 #include "base/numeric_locale.h"
 #include "base/printed.h"
 #include "environment/earth.h"
+#include "model/model.h"
 
 #define DEGREES 57.29577951308232
 

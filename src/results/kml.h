@@ -6,9 +6,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "launchdyn/model.h"
 #include "launchdyn/results.h"
 #include "launchdyn/status.h"
-#include "model/model.h"
 
 typedef struct kml_file kml_file;
 

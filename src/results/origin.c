@@ -5,6 +5,7 @@
 
 #include "base/memory_stream.h"
 #include "model/fields/source.h"
+#include "model/model.h"
 #include "results/json_text.h"
 #include "results/program.h"
 #include "scenario/scenario.h"

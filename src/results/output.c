@@ -1,4 +1,5 @@
 #include "launchdyn/output.h"
+#include "model/model.h"
 
 #include <assert.h>
 #include <errno.h>

@@ -11,6 +11,7 @@
 #include "base/numeric_locale.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 #include "results/json.h"

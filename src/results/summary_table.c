@@ -3,6 +3,7 @@
 #include "base/printed.h"
 #include "launchdyn/output.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 #include "run/measures.h"

@@ -7,6 +7,7 @@
 
 #include "base/suggestion.h"
 #include "flight/flight_history.h"
+#include "model/model.h"
 #include "state/history.h"
 #include "systems/bases/base.h"
 

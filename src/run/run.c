@@ -18,6 +18,7 @@
 #include "launch/launch_run.h"
 #include "launch/launch_summary.h"
 #include "launch/launch_told.h"
+#include "model/model.h"
 #include "state/history.h"
 
 static bool has_launch(const ld_run *run)

@@ -12,6 +12,7 @@
 #include "integration/integrator.h"
 #include "integration/saved_state.h"
 #include "launchdyn/vehicle_run.h"
+#include "model/model.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/launch_state.h"

@@ -3,6 +3,7 @@
 
 #include "base/printed.h"
 #include "model/fields/field.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "run/measures.h"
 #include "scenario/clock_text.h"

@@ -7,6 +7,7 @@
 #include "base/text_file.h"
 #include "model/fields/field.h"
 #include "model/fields/source.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "scenario/scenario_reader.h"
 

@@ -2,8 +2,9 @@
 #ifndef LD_SCENARIO_SCENARIO_H
 #define LD_SCENARIO_SCENARIO_H
 
+#include <stddef.h>
+
 #include "launchdyn/scenario.h"
-#include "model/model.h"
 
 // As ld_scenario_read() and ld_scenario_read_text(), with the values of point `point` (from 1 to
 // ld_scenario_points()) of the sweep in place of the nominal ones; 0: the nominal ones. A value's

@@ -6,6 +6,7 @@
 
 #include "base/suggestion.h"
 #include "model/fields/field.h"
+#include "model/model.h"
 #include "scenario/scenario_reader.h"
 
 // One group while it is read.

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/model.h"
 #include "scenario/scenario.h"
 
 // Hands out what has been read; NULL after a failure.

@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #include "launchdyn/scenario.h"
-#include "model/model.h"
+#include "model/blocks/study.h"
 #include "scenario/units.h"
 
 enum {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/fields/field.h"
+#include "model/model.h"
 #include "scenario/scenario_reader.h"
 
 // One factor while it is read.

@@ -6,6 +6,7 @@
 
 #include "base/memory_stream.h"
 #include "model/fields/field.h"
+#include "model/model.h"
 #include "scenario/scenario_reader.h"
 
 static bool refuse(scenario_reader *reader, text_place place, const char *key, const char *format,

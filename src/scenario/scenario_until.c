@@ -5,6 +5,7 @@
 
 #include "base/suggestion.h"
 #include "model/fields/field.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "run/measures.h"
 #include "scenario/scenario_reader.h"

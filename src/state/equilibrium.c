@@ -8,6 +8,7 @@
 #include "math/functions.h"
 #include "math/matrices/lapack.h"
 #include "math/vectors/rotation_vector.h"
+#include "model/model.h"
 #include "state/carried.h"
 #include "state/evaluation.h"
 #include "state/exit_figures.h"

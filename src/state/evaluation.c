@@ -1,4 +1,5 @@
 #include "state/evaluation.h"
+#include "model/model.h"
 #include "systems/launching/launching_dynamics.h"
 
 #include <math.h>

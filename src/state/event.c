@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "model/model.h"
+
 static void add(event_list *self, event_kind kind, int count)
 {
     for (int i = 0; i < count; i++)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "integration/dormand_prince.h"
+#include "model/model.h"
 
 // How far apart the places of a course are [s]; between them it is a cubic. How far beyond the
 // table's end it goes on [m]: so much may a mouth leave the way that it had when its rocket left.

@@ -9,6 +9,7 @@
 #include "math/matrices/dense.h"
 #include "math/matrices/general_eigen.h"
 #include "math/vectors/rotation_vector.h"
+#include "model/model.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/launch_state.h"

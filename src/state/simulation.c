@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/model.h"
+
 ld_simulation *simulation_make(ld_error *error)
 {
     // its lanes want their alignment

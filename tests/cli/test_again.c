@@ -1,4 +1,6 @@
 // A run repeated to the bit from its folder of results alone: launchdyn run --again.
+#include "model/fields/source.h"
+#include "model/model.h"
 #include "support/check.h"
 #include "support/shell.h"
 

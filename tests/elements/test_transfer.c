@@ -1,6 +1,7 @@
 // Transfer matrices of the elements: symplectic with determinant 1 (any element whose equations are
 // M eta_dot = h + L_I^T F_I - L_O^T F_O must be), and against plain Newton-Euler equations.
 #include "elements/tube/transfer.h"
+#include "model/model.h"
 
 #include <string.h>
 

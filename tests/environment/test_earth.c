@@ -1,4 +1,5 @@
 // Earth: gravitation as the gradient of its potential, geodetic places there and back, frames.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "environment/earth.h"

@@ -1,5 +1,6 @@
 // Values that are allowed but hardly meant, and their exact notes: the cases are in notes.txt. The
 // project's own scenarios have none.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <glob.h>

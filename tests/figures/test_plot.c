@@ -1,4 +1,5 @@
 // Figures: what the script says against the history, what gnuplot makes of it, what can go wrong.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

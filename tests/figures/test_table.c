@@ -1,5 +1,6 @@
 // The table of figures: each column that it names is there, each axis has the factor from its
 // columns' unit to the unit written at it, and gnuplot and the report get the same figures.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -12,6 +12,7 @@
 #include "launch/launch_run.h"
 #include "launchdyn/run.h"
 #include "math/vectors/rotation_vector.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/made_fmu.h"

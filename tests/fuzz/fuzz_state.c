@@ -8,6 +8,7 @@
 
 #include "launchdyn/run.h"
 #include "model/fields/digest.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "fuzz/memory_folder.h"
+#include "model/fields/source.h"
 #include "scenario/scenario.h"
 #include "support/model_compare.h"
 

@@ -6,6 +6,7 @@
 #include "launchdyn/output.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/summary.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 
 static const char small_run[] =

@@ -1,4 +1,5 @@
 // Models filled by hand: the checks that the scenario reader makes hold for them too.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <string.h>

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "model/fields/digest.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 

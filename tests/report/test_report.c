@@ -1,5 +1,6 @@
 // The report of a run: its numbers are those of the results, its size is bounded, what it leaves
 // out would not be seen, no text of a scenario becomes part of its code.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 // Flights of made-up rockets in the results: history.h5, flights.csv, trajectories.kml, figures.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 // A quantity is written once: each of a summary, given a value of its own, is found under its name
 // in summary.json and in the table after a run; docs/quantities.md says what the tables say; the
 // report names nothing that is not there.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

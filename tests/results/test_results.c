@@ -1,4 +1,5 @@
 // What a run leaves on disk: complete, exact, readable by others, never half-written.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <errno.h>

@@ -7,6 +7,7 @@
 #include "launchdyn/output.h"
 #include "math/vectors/mat3.h"
 #include "math/vectors/quaternion.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "results/history.h"
 #include "results/manifest.h"

@@ -1,4 +1,5 @@
 // Values of a model by path: set as by --set, told as numbers, texts and tables.
+#include "model/fields/source.h"
 #include "support/check.h"
 
 #include <signal.h>

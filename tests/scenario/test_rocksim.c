@@ -1,4 +1,5 @@
 // RockSim .rse files: thrust, masses of the propellant or of the whole motor, its centre.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "model/masses.h"

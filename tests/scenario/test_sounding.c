@@ -1,4 +1,5 @@
 // Soundings: each form read, its units, what is passed over, and that all say the same.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <string.h>

@@ -1,4 +1,5 @@
 // Every one-letter change of the keys and words of the scenario language, and what is suggested.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

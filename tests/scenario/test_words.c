@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "launchdyn/scenario.h"
-#include "model/model.h"
 
 // The words for an example with changes.
 static void check_words(const char *example, const char *const *sets, size_t count,

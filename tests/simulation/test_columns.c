@@ -6,6 +6,7 @@
 // leads each row through this test, so that the state is at hand. A new column fails it until what
 // the column ought to hold is said here (support/column_book.h).
 #include "math/vectors/mat3.h"
+#include "model/model.h"
 #include "state/launch_state.h"
 #include "support/column_book.h"
 #include "support/dense_simulation.h"

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/model.h"
 #include "support/check.h"
 #include "support/exit_distance.h"
 #include "support/reference_model.h"

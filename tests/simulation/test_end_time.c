@@ -1,5 +1,6 @@
 // A launch whose end is a time: the launcher moves on and the rockets fly until then, as they do on
 // their way to the ground.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "scenario/scenario.h"

@@ -11,6 +11,7 @@
 
 #include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/draw.h"

@@ -1,6 +1,7 @@
 // The rocket against the launcher, over time and at the exit: each column and each figure of the
 // summary, by its name, against places and directions that are rebuilt from other columns and
 // differentiated from row to row; launchers that differ in their place in I alone; steep ones.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 // Flights side by side: whatever their options and in whatever lane, each has the bits that it has
 // alone.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 // Columns of the history against each other: the tip in inertial space from base and relative tip,
 // and rates and velocities from differences.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 // The lock's hold_down: under whatever force it opens no sooner, and from then on as without.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

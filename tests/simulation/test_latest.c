@@ -1,5 +1,6 @@
 // What the equations gave last is handed out again for the same state under the same conditions
 // alone: whatever changes, simulation_output gives what a new evaluation gives, to the bit.
+#include "model/model.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/stepping/propagator.h"

@@ -2,6 +2,7 @@
 // and goes within a few milliseconds of smooth motion is found with it, as it is not without.
 #include <string.h>
 
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/recorded_run.h"

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "launchdyn/loop.h"
+#include "model/model.h"
 #include "state/simulation.h"
 #include "support/check.h"
 #include "support/reference_model.h"

@@ -1,5 +1,6 @@
 // Measures against closed forms, against rows of 2 us of the same run, and against what the summary
 // tells otherwise; on the march, in a sequence, with windows that begin and end with the run.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "launchdyn/simulation.h"

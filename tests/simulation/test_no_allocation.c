@@ -3,6 +3,7 @@
 // the allocator, from our code and from the integrator's library, through a counter. Nor does a
 // number fall below the smallest normal one, which would cost a processor a hundred times an
 // operation.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <fenv.h>

@@ -2,6 +2,7 @@
 // link: -Wl,--wrap=free
 // Too little memory, however much of it, ends a simulation or its run with one sentence: the linker
 // leads each call of the allocator, from our code and from the integrator's library, here.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <malloc.h>

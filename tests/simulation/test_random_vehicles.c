@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/random_model.h"

@@ -1,5 +1,6 @@
 // A simulation renewed from one sample to the next gives the bits of one that was made afresh,
 // whatever went before; the tube's modes are found again exactly where the tube is another one.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

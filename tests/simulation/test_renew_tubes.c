@@ -1,5 +1,6 @@
 // A simulation renewed after a change of any key of the tubes gives the bits of one made afresh:
 // what it keeps of the tube before follows from no key that has changed.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -5,6 +5,7 @@
 
 #include "environment/road.h"
 #include "launchdyn/response.h"
+#include "model/model.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 

@@ -2,6 +2,7 @@
 // The table of a random road covers where the wheels come: in a run no harmonics are summed. The
 // linker leads the sums' blocks of sines through a counter; the platforms ask for two at a time.
 #include "math/sine_cosine.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"

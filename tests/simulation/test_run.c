@@ -5,6 +5,7 @@
 
 #include "launchdyn/run.h"
 #include "launchdyn/summary.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/recorded_run.h"

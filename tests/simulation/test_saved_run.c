@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "launchdyn/run.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "scenario/scenario.h"
 #include "support/check.h"

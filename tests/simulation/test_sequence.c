@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"

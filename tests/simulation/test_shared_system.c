@@ -2,6 +2,7 @@
 // a run alone. On a vehicle, whose chain of bodies has a workspace; with rockets that differ.
 #include <pthread.h>
 
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"

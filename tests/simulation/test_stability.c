@@ -1,4 +1,5 @@
 // Stabilisers that cannot hold their platforms are refused before the run, and no others.
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "state/simulation.h"
 #include "support/check.h"

@@ -1,6 +1,7 @@
 // A flight through turbulence: what acts is the turbulence of the distance flown through the air,
 // and it is the same at any tolerance.
 #include "environment/turbulence.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/recorded_run.h"

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "launchdyn/vehicle_run.h"
+#include "model/model.h"
 #include "support/check.h"
 #include "support/exit_distance.h"
 #include "support/reference_model.h"

@@ -1,5 +1,6 @@
 // The factors of the paper's salvo, each alone as a study draws it, reach the physics by the right
 // size: flights alone and a rocket at rest in its tube against closed forms.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "launchdyn/study.h"

@@ -1,6 +1,7 @@
 // Footprints as files: corners against the landings themselves, the three formats against each
 // other, places on the Earth against radii of curvature and against points of the ellipsoid; what
 // crosses the antimeridian, has a hole, or cannot be written.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

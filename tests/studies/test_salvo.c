@@ -1,6 +1,7 @@
 // Salvos from the vehicle: rockets drawn alike are a sequence of such rockets, the platform carries
 // what was drawn, and a drawn interval moves the ignitions.
 // ctest: slow
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

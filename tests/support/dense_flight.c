@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "math/vectors/mat3.h"
+#include "model/model.h"
 
 // Numbers of the state: O1 and its velocity in inertial axes, quaternion of B, rate in B.
 enum { R = 0, V = 3, Q = 6, W = 10, STATES = 13, POINTS = 64 };

@@ -4,8 +4,10 @@
 #ifndef LD_TESTS_SUPPORT_DENSE_FLIGHT_H
 #define LD_TESTS_SUPPORT_DENSE_FLIGHT_H
 
+#include <stdbool.h>
+
+#include "launchdyn/model.h"
 #include "math/vec3.h"
-#include "model/model.h"
 
 typedef struct dense_flight_end {
     double t;           // [s] of the impact on the run's clock

@@ -1,6 +1,7 @@
 #include "support/dense_launch.h"
 
 #include "math/matrices/lapack.h"
+#include "model/model.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -14,7 +14,7 @@
 #include <stdbool.h>
 
 #include "elements/tube/flexible_tube.h"
-#include "model/model.h"
+#include "launchdyn/model.h"
 
 enum { DENSE_MAX_MODES = 28, DENSE_MAX_COORDINATES = DENSE_MAX_MODES + 12 };
 

@@ -1,6 +1,7 @@
 #include "support/dense_vehicle.h"
 
 #include "math/matrices/lapack.h"
+#include "model/model.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 #include "support/example_run.h"
 
 #include "launchdyn/output.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 

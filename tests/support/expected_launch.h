@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"

@@ -1,5 +1,6 @@
 #include "support/fine_tube.h"
 
+#include "model/model.h"
 #include "support/check.h"
 
 // Node at station x, which must be one.

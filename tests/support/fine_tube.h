@@ -7,7 +7,8 @@
 #ifndef LD_TESTS_SUPPORT_FINE_TUBE_H
 #define LD_TESTS_SUPPORT_FINE_TUBE_H
 
-#include "model/model.h"
+#include "launchdyn/model.h"
+#include "model/blocks/limits.h"
 
 enum { FINE_MOST_NODES = 301, FINE_MOST_LOADS = 4, FINE_BAND = 4 };
 

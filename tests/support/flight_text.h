@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/recorded_run.h"

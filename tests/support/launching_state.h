@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "model/model.h"
 #include "support/dense_simulation.h"
 #include "support/draw.h"
 #include "systems/launching/launching.h"

@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "model/model.h"
+
 // name, unit, size of the numbers, frequency [Hz], 1: of the rocket (NaN after it has left)
 typedef struct made {
     const char *name, *unit;

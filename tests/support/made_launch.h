@@ -6,7 +6,6 @@
 #include <stddef.h>
 
 #include "launchdyn/results.h"
-#include "model/model.h"
 #include "quantities/summary.h"
 
 enum { MADE_COLUMNS = 115 };

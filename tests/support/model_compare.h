@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/fields/field.h"
+#include "model/model.h"
 
 static inline bool same_table(const ld_table *a, const ld_table *b)
 {

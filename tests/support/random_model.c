@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "model/guide.h"
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/draw.h"

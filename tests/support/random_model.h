@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "model/model.h"
+#include "launchdyn/model.h"
 
 double between(uint64_t *seed, double low, double high);
 bool chance(uint64_t *seed, double probability);

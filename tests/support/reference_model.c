@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/model.h"
+
 static const double degree = 3.14159265358979323846 / 180;
 
 ld_table reference_table(size_t rows, size_t columns, const double *data)

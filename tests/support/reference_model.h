@@ -3,7 +3,10 @@
 #ifndef LD_TESTS_SUPPORT_REFERENCE_MODEL_H
 #define LD_TESTS_SUPPORT_REFERENCE_MODEL_H
 
-#include "model/model.h"
+#include <stddef.h>
+
+#include "launchdyn/model.h"
+#include "model/blocks/table.h"
 
 // Fills `model` on a fixed base; free with reference_model_free() or model_clear().
 void reference_model(ld_model *model);

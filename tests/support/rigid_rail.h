@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "model/model.h"
+#include "launchdyn/model.h"
 
 typedef struct rigid_exit {
     double t_release, t_front, t_rear;                                // [s] from ignition

@@ -1,6 +1,7 @@
 #include "support/rigid_rest.h"
 
 #include "math/matrices/lapack.h"
+#include "model/model.h"
 #include <math.h>
 #include <string.h>
 

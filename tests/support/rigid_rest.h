@@ -4,8 +4,10 @@
 #ifndef LD_TESTS_SUPPORT_RIGID_REST_H
 #define LD_TESTS_SUPPORT_RIGID_REST_H
 
+#include <stdbool.h>
+
+#include "launchdyn/model.h"
 #include "math/vectors/quaternion.h"
-#include "model/model.h"
 
 // In the guide's axes.
 typedef struct rigid_pose {

@@ -2,7 +2,9 @@
 #ifndef LD_TESTS_SUPPORT_STABILISER_OPTIONS_H
 #define LD_TESTS_SUPPORT_STABILISER_OPTIONS_H
 
-#include "model/model.h"
+#include <stdbool.h>
+
+#include "model/blocks/stabiliser.h"
 #include "support/draw.h"
 
 // Its logarithm is uniform.

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "elements/tube/flexible_tube.h"
+#include "model/model.h"
 #include "support/reference_model.h"
 
 // The tubes of the reference launcher without their slot, so that nothing needs to be freed.

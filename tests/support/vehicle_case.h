@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "support/dense_vehicle.h"
 #include "support/draw.h"
 #include "support/reference_model.h"

@@ -2,6 +2,7 @@
 // closed forms.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"

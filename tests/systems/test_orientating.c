@@ -2,6 +2,7 @@
 // differences, its energy and momentum, its torques, and both forms of its equations.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"

@@ -1,5 +1,6 @@
 // A ship in its sea: one wave against the base of sines, irregular seas against differences, the
 // wave-by-wave sum and the spectrum; sides, headings, overtaken waves, the arm to the tube.
+#include "model/model.h"
 #include "systems/bases/sea_motion.h"
 
 #include "environment/sea.h"

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "integration/integrator.h"
+#include "model/model.h"
 #include "support/check.h"
 #include "support/reference_model.h"
 #include "systems/bases/orientating.h"

@@ -1,5 +1,6 @@
 // The breech: a rocket without a lock rests on it, falls on it as a mass on a spring, and bounces
 // by the contact's law; a lock at the tube's very end needs none.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "support/recorded_run.h"

@@ -1,5 +1,6 @@
 // Supports that hold rigidly: frequencies of a cantilever, the limit of stiff springs, and the
 // balance on bases that move.
+#include "model/model.h"
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"

@@ -4,6 +4,7 @@
 // ctest: slow
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/launching_run.h"

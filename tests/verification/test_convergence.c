@@ -3,6 +3,7 @@
 // ctest: slow
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/reference_model.h"

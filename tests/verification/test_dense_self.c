@@ -1,4 +1,5 @@
 // The dense check is right by itself: closed forms, balances and numerical derivatives.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 // The independent launch program on the reference launcher: it converges in its step, starts in
 // balance, and gives what hand calculation expects.
 // ctest: slow
+#include "model/model.h"
 #include "support/check.h"
 
 #include "support/dense_simulation.h"

@@ -8,6 +8,7 @@
 #include "environment/road.h"
 #include "launchdyn/response.h"
 #include "launchdyn/summary.h"
+#include "model/model.h"
 #include "state/linearise.h"
 #include "support/check.h"
 #include "support/fresh_launch.h"

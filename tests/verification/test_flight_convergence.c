@@ -1,5 +1,6 @@
 // The error of a flight follows its tolerance; a rocket that leaves a tube flies on as one that
 // begins in flight with the same state.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 // against the sine series, whose quasi-static part is the triangle of statics.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "support/check.h"

@@ -2,6 +2,7 @@
 // is left of drift, momentum and energy.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "support/check.h"
 #include "support/launching_run.h"
 #include "support/recorded_run.h"

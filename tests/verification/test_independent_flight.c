@@ -1,5 +1,6 @@
 // The reference flight and others against a second formulation of free flight
 // (support/dense_flight): where, when and how they land.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -5,6 +5,7 @@
 // same mode shapes. The program runs with its default tolerance. The tip's own rates are kept
 // apart: an impact just before the exit leaves the tip ringing, and both programs' steps show there
 // first.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -6,6 +6,7 @@
 // the two come closer on every count but one: where a wheel lands, the force of its tyre's damper
 // begins with a jump, and a fixed step that crosses it is off by the step's length. Poles of the
 // whole are compared too.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

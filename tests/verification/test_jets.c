@@ -2,6 +2,7 @@
 // and where the rockets are meanwhile.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/stepping/propagator.h"

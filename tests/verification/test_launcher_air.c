@@ -3,6 +3,7 @@
 // a rail: what its shoes carry, the flight's own accelerations, damping, energy balance.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"

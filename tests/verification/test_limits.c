@@ -4,6 +4,7 @@
 // ctest: slow
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/dense_simulation.h"

@@ -1,4 +1,5 @@
 // Flights through measured air: rows of us1976 are us1976; its scale and offset act as on that.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "environment/atmosphere.h"

@@ -1,6 +1,7 @@
 // NESC atmospheric check-cases 1, 2, 3, 5, 6, 9 (AIAA 2015-1810) as scenario files, against the
 // sharpest published simulation (04) and against another program's integration of the same
 // definitions ("re", printed to 11 digits), every half second.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

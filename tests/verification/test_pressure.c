@@ -1,5 +1,6 @@
 // A rocket driven by pressure against closed forms and quadratures of its own: a gas that expands,
 // pressures over travel and time, the tube's recoil, rifling, the lock, the breech.
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 // Figures of docs/rail.md: a rail that hardly gives against the closed form of a rigid rocket that
 // pivots on its rear shoe, and the rail of examples/rail/pad.yaml against what the page says.
 // ctest: slow
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>

@@ -5,6 +5,7 @@
 // friction of the adaptors; LD_RESPONSE_SINES: on so many sets of sines.
 // ctest: slow
 #include "math/matrices/lapack.h"
+#include "model/model.h"
 #include <stdlib.h>
 
 #include "launchdyn/loop.h"

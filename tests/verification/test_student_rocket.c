@@ -1,5 +1,6 @@
 // examples/student-rocket from rail to ground, against what RocketPy 1.12 has for the rocket as
 // scripts/beside-rocketpy flies it, from the end of a rail that lets it go whole.
+#include "model/model.h"
 #include "support/check.h"
 
 #include "quantities/summary.h"

@@ -4,6 +4,7 @@
 // ctest: slow
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "support/check.h"
 #include "support/fine_tube.h"
 #include "support/recorded_run.h"

@@ -3,6 +3,7 @@
 // ctest: slow
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "quantities/summary_quantities.h"
 #include "support/check.h"
 #include "support/recorded_run.h"

@@ -1,6 +1,7 @@
 // The vehicle on its wheels: its tyres carry the weight, and released on a flat road it stays where
 // it is.
 // ctest: slow
+#include "model/model.h"
 #include "support/check.h"
 
 #include "support/recorded_run.h"

@@ -2,6 +2,7 @@
 // against the transfer function of the linearised equations, (i omega - J)^-1 B.
 // ctest: slow
 #include "math/matrices/lapack.h"
+#include "model/model.h"
 #include <complex.h>
 #include <stdlib.h>
 

@@ -4,10 +4,12 @@
 #ifndef LD_ELEMENTS_AERODYNAMICS_H
 #define LD_ELEMENTS_AERODYNAMICS_H
 
+#include <stdbool.h>
+#include <stddef.h>
+
 #include "elements/air/aerodynamics_surfaces.h"
 #include "math/curves/curves.h"
 #include "math/vec3.h"
-#include "model/model.h"
 
 enum { AERODYNAMICS_COLUMNS = 7 };
 

@@ -3,7 +3,8 @@
 #define LD_ELEMENTS_AERODYNAMICS_SURFACES_H
 
 #include "math/curves/curves.h"
-#include "model/model.h"
+#include "model/blocks/aerodynamics.h"
+#include "model/blocks/limits.h"
 
 // Columns of the table: ca_power_off, ca_power_on, the sums of cl_delta cant and of cl_p, then the
 // slope of each surface that has one; lanes read them in eights.

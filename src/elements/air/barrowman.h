@@ -8,7 +8,7 @@
 #ifndef LD_ELEMENTS_BARROWMAN_H
 #define LD_ELEMENTS_BARROWMAN_H
 
-#include "model/model.h"
+#include "model/blocks/aerodynamics.h"
 
 // A body of revolution: its force's slope and place behind its front end, and its area seen from
 // the side with that area's centre.

@@ -3,9 +3,11 @@
 #ifndef LD_ELEMENTS_CONTACT_H
 #define LD_ELEMENTS_CONTACT_H
 
+#include <stdbool.h>
+
 #include "math/functions.h"
 #include "math/vec3.h"
-#include "model/model.h"
+#include "model/blocks/contact.h"
 
 typedef struct contact_law {
     ld_contact_law kind;

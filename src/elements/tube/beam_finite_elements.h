@@ -10,7 +10,7 @@
 #define LD_ELEMENTS_BEAM_FINITE_ELEMENTS_H
 
 #include "launchdyn/status.h"
-#include "model/model.h"
+#include "model/blocks/tubes.h"
 
 // Stations of the nodes: at section steps, point masses and supports, evenly between them.
 typedef struct tube_mesh {

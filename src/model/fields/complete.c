@@ -1,5 +1,7 @@
 #include "math/functions.h"
 #include "model/fields/field.h"
+#include "model/fields/source.h"
+#include "model/model.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "model/fields/field.h"
+#include "model/model.h"
 
 uint64_t digest_bytes(uint64_t digest, const void *bytes, size_t size)
 {

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "model/model.h"
+#include "launchdyn/model.h"
 
 // FNV-1a of bytes, going on from `digest`; the first begins with DIGEST_BEGIN.
 #define DIGEST_BEGIN UINT64_C(14695981039346656037)

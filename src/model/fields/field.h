@@ -9,7 +9,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "model/model.h"
+#include "launchdyn/model.h"
+#include "model/blocks/limits.h"
+#include "model/blocks/study.h"
 
 typedef enum field_kind {
     FIELD_NUMBER,     // `count` doubles with one unit

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "launchdyn/status.h"
 #include "math/curves/distributions.h"
 #include "model/fields/field.h"
 

@@ -1,4 +1,5 @@
 #include "model/fields/field.h"
+#include "model/model.h"
 
 // Kinds, with the member of the block's struct that holds the value.
 #define VECTOR(type, member, unit_, n)                                                             \

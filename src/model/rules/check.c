@@ -1,5 +1,6 @@
 // Checks of a model that was filled by hand: every value against its table, then the rules.
 #include "model/fields/field.h"
+#include "model/model.h"
 
 #include <stdint.h>
 #include <stdio.h>

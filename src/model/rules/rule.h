@@ -2,6 +2,7 @@
 #ifndef LD_MODEL_RULE_H
 #define LD_MODEL_RULE_H
 
+#include "launchdyn/status.h"
 #include "model/fields/field.h"
 
 typedef struct rule_set {

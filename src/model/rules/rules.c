@@ -6,6 +6,7 @@
 #include <strings.h>
 
 #include "model/masses.h"
+#include "model/model.h"
 #include "model/moist_air.h"
 
 // A station must lie on the tube.

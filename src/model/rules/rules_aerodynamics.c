@@ -1,4 +1,5 @@
 // Rules of the air on the rocket.
+#include "model/model.h"
 #include "model/rules/rules.h"
 
 #include <stdio.h>

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "model/model.h"
 #include "model/rules/rules.h"
 
 static const double PI = 3.14159265358979323846;

@@ -1,6 +1,7 @@
 // Rules of what guides the rocket: a bore with its clearances, or surfaces with their gaps.
 #include <strings.h>
 
+#include "model/model.h"
 #include "model/rules/rules.h"
 
 static void bore_rules(const rule_set *rules)

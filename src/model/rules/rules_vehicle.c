@@ -1,4 +1,5 @@
 // Rules that tie keys of the vehicle and its platforms together.
+#include "model/model.h"
 #include "model/rules/rules.h"
 
 #include <stdio.h>

@@ -2,7 +2,9 @@
 #ifndef LD_MODEL_ESTIMATES_H
 #define LD_MODEL_ESTIMATES_H
 
-#include "model/model.h"
+#include "launchdyn/model.h"
+#include "model/blocks/motor.h"
+#include "model/blocks/tubes.h"
 
 // Radius of the bore at the rear end [m]; NaN on surfaces and in a flight alone.
 double estimate_bore(const ld_model *model);

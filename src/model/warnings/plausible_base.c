@@ -3,6 +3,7 @@
 
 #include "math/curves/spline.h"
 #include "math/functions.h"
+#include "model/model.h"
 #include "model/motion_rows.h"
 #include "model/warnings/plausible.h"
 

@@ -1,5 +1,6 @@
 // Plausibility of the rocket, its motor and its aerodynamics.
 #include "math/functions.h"
+#include "model/model.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

@@ -1,5 +1,6 @@
 // Plausibility of the environment, flights, runs and studies.
 #include "math/functions.h"
+#include "model/model.h"
 #include "model/moist_air.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"

@@ -1,4 +1,5 @@
 // Plausibility of the stabilisers' options.
+#include "model/model.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

@@ -1,6 +1,7 @@
 // Plausibility of tubes and their supports.
 #include "math/functions.h"
 #include "model/guide.h"
+#include "model/model.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

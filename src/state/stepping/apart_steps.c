@@ -5,6 +5,7 @@
 
 #include "elements/held_frame.h"
 #include "elements/held_wrench.h"
+#include "model/model.h"
 #include "state/evaluation.h"
 #include "state/stepping/integrated_steps.h"
 #include "systems/launching/launching_dynamics.h"

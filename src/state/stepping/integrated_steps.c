@@ -1,5 +1,6 @@
 #include "state/stepping/integrated_steps.h"
 
+#include "model/model.h"
 #include "state/evaluation.h"
 
 static integrator *integrator_of(const propagator *self)

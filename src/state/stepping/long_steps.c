@@ -5,6 +5,7 @@
 
 #include "integration/exponential_steps.h"
 #include "math/matrices/exponential.h"
+#include "model/model.h"
 #include "state/stepping/integrated_steps.h"
 
 typedef struct long_steps {

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/model.h"
 #include "state/stepping/apart_steps.h"
 #include "state/stepping/integrated_steps.h"
 #include "state/stepping/long_steps.h"

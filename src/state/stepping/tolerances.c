@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/model.h"
+
 void tolerances_find(const launch_state *self, tolerances *all)
 {
     const launching_layout *at = &self->launcher.launching.layout;

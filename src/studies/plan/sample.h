@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "model/fields/field.h"
+#include "model/model.h"
 
 // What is found once: where the factors' numbers are in a model, and their nominal values.
 typedef struct study_sampler {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory_stream.h"
+#include "model/fields/source.h"
 #include "quantities/study_results.h"
 #include "scenario/scenario.h"
 #include "studies/plan/study.h"

@@ -5,6 +5,7 @@
 
 #include "base/numeric_locale.h"
 #include "launchdyn/study.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "results/json_text.h"
 #include "results/kml.h"

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/functions.h"
+#include "model/model.h"
 
 #define DEGREES 57.29577951308232
 

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/version.h"
+#include "model/fields/source.h"
 #include "scenario/scenario.h"
 #include "studies/store/store_check.h"
 #include "studies/store/store_tables.h"

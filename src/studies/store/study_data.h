@@ -11,7 +11,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/status.h"
 #include "launchdyn/study_data.h"
-#include "model/model.h"
+#include "model/blocks/study.h"
 
 typedef ld_study_column study_column;
 typedef ld_study_point study_point;

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "model/model.h"
+
 #define KIND(name, word, number) [name] = &base_##word,
 static const base_interface *const kinds[] = {LD_BASE_KINDS(KIND)};
 

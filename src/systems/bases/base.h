@@ -10,6 +10,7 @@
 
 #include "base/archive.h"
 #include "elements/exchange.h"
+#include "model/blocks/base.h"
 #include "model/quantity.h"
 #include "systems/bases/vehicle.h"
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "elements/held_frame.h"
+#include "model/model.h"
 #include "systems/bases/base.h"
 
 enum {

@@ -1,6 +1,7 @@
 // A base that stands still.
 #include <stdlib.h>
 
+#include "model/model.h"
 #include "systems/bases/base_coordinates.h"
 
 static ld_status build(base_system *self, ld_error *error)

@@ -15,6 +15,7 @@
 
 #include "foreign/foreign.h"
 #include "math/vectors/rotation_vector.h"
+#include "model/model.h"
 #include "systems/bases/base.h"
 
 enum { FRAME_R = 0, FRAME_QUATERNION = 3, FRAME_V = 7, FRAME_W = 10, FRAME_SIZE = 13 };

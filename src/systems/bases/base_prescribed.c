@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "math/functions.h"
+#include "model/model.h"
 #include "systems/bases/base_coordinates.h"
 #include "systems/bases/motion_table.h"
 #include "systems/bases/sea_motion.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "math/functions.h"
+#include "model/model.h"
 #include "systems/bases/base.h"
 
 const vehicle_system *base_as_vehicle(const base_system *self)

@@ -7,10 +7,12 @@
 #ifndef LD_SYSTEMS_MARCHING_H
 #define LD_SYSTEMS_MARCHING_H
 
+#include <stdbool.h>
+
 #include "elements/base_frame.h"
 #include "elements/tube/work.h"
 #include "environment/road.h"
-#include "model/model.h"
+#include "model/blocks/vehicle.h"
 
 enum { WHEEL_STATES = 8, WHEEL_R = 0, WHEEL_V = 3, WHEEL_ETA = 6, WHEEL_XI = 7 };
 

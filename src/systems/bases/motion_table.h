@@ -3,6 +3,7 @@
 #define LD_SYSTEMS_MOTION_TABLE_H
 
 #include "elements/base_frame.h"
+#include "launchdyn/status.h"
 #include "model/motion_rows.h"
 
 typedef struct motion_table {

@@ -6,6 +6,7 @@
 #include "elements/motor.h"
 #include "math/functions.h"
 #include "math/sine_cosine.h"
+#include "model/model.h"
 
 static const double PI = 3.141592653589793238462643383280;
 

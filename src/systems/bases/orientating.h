@@ -11,7 +11,10 @@
 
 #include "elements/base_frame.h"
 #include "elements/tube/work.h"
+#include "launchdyn/model.h"
 #include "launchdyn/mstmm.h"
+#include "model/blocks/run.h"
+#include "model/blocks/tubes.h"
 #include "systems/bases/stabiliser.h"
 
 enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };

@@ -6,6 +6,7 @@
 #include "environment/sea.h"
 #include "math/functions.h"
 #include "math/lanes.h"
+#include "model/model.h"
 
 enum { SURGE, SWAY, HEAVE, ROLL, PITCH, YAW, MOTIONS, MOST_CELLS = 1 << 14 };
 

@@ -3,7 +3,10 @@
 #ifndef LD_SYSTEMS_SEA_MOTION_H
 #define LD_SYSTEMS_SEA_MOTION_H
 
-#include "model/model.h"
+#include <stddef.h>
+
+#include "launchdyn/model.h"
+#include "launchdyn/status.h"
 
 enum {
     SEA_LANES = 8,        // x, y, z, yaw, pitch, roll, and two of nothing

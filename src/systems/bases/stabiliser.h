@@ -6,9 +6,10 @@
 #ifndef LD_SYSTEMS_STABILISER_H
 #define LD_SYSTEMS_STABILISER_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
-#include "model/model.h"
+#include "model/blocks/stabiliser.h"
 
 enum {
     DRIVE_TORQUE,   // [N m] of an actuator that lags

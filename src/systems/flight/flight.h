@@ -29,6 +29,7 @@
 #include "environment/turbulence.h"
 #include "environment/wind.h"
 #include "math/vectors/quaternion.h"
+#include "model/blocks/flight.h"
 
 enum {
     FLIGHT_R = 0,

@@ -3,6 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
+#include "model/model.h"
 #include "systems/launching/launching_dynamics.h"
 #include "systems/launching/launching_figures.h"
 #include "systems/launching/launching_overall.h"

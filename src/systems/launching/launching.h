@@ -17,6 +17,7 @@
 #include "elements/guide/slot.h"
 #include "elements/guide/support.h"
 #include "elements/load.h"
+#include "launchdyn/model.h"
 
 typedef struct launching_system {
     const ld_model *model;

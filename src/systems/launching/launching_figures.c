@@ -2,6 +2,7 @@
 
 #include "elements/tail.h"
 #include "elements/tube/tube_dynamics.h"
+#include "model/model.h"
 #include "systems/launching/launching_kinematics.h"
 
 void launching_find_loads(const launching_system *self, const launching_input *input,

@@ -1,6 +1,7 @@
 #include "systems/launching/launching_general.h"
 
 #include "math/matrices/dense.h"
+#include "model/model.h"
 
 static void flatten(const launching_system *self, const tube_force *force, double *h)
 {

@@ -2,6 +2,7 @@
 
 #include "elements/tube/transfer.h"
 #include "math/matrices/dense.h"
+#include "model/model.h"
 #include "systems/launching/launching_dynamics.h"
 #include "systems/launching/launching_general.h"
 

@@ -1,0 +1,73 @@
+/// The tube, its modes, its place among others: the block `tubes`.
+#ifndef LD_MODEL_BLOCKS_TUBES_H
+#define LD_MODEL_BLOCKS_TUBES_H
+
+#include "model/blocks/guide.h"
+#include "model/blocks/limits.h"
+#include "model/blocks/pressure.h"
+#include "model/blocks/section.h"
+#include "model/blocks/slot.h"
+#include "model/blocks/support.h"
+
+/// Isotropic material of the tube; NaN: not given.
+typedef struct ld_material {
+    double youngs_modulus; ///< [Pa] E
+    double poisson_ratio;  ///< [-] nu; G = E/(2 (1 + nu))
+    double shear_modulus;  ///< [Pa] G, in place of nu
+    double density;        ///< [kg/m3]
+} ld_material;
+
+typedef struct ld_point_mass {
+    double at;   ///< [m] station
+    double mass; ///< [kg]
+} ld_point_mass;
+
+typedef struct ld_modes {
+    int bending; ///< modes per plane
+    int torsion;
+    int axial;
+    int elements; ///< finite elements along the tube (at least; section steps add nodes)
+    ld_mode_span span;
+    double damping; ///< [-] ratio, of the clamped modes of the bare tube
+} ld_modes;
+
+typedef struct ld_tail {
+    double mass;       ///< [kg], may be 0
+    double center;     ///< [m] x of the mass centre in the rear section's frame (negative: behind)
+    double inertia[3]; ///< [kg m2] about its own mass centre, tube axes
+} ld_tail;
+
+/// Where it is asked for what the tube carries.
+typedef struct ld_station {
+    double at;             ///< [m] station
+    double outer_fibre[2]; ///< [m] along y, z from the elastic axis; NaN: that of a ring, or none
+} ld_station;
+
+typedef struct ld_layout {
+    int rows, columns;
+    double pitch;    ///< [m]
+    double first[3]; ///< [m] rear end of tube 1, platform axes
+} ld_layout;
+
+typedef struct ld_tubes {
+    ld_layout layout;
+    int empty_count;
+    int empty[LD_MAX_TUBES]; ///< numbers of the tubes without a rocket from the start
+    double length;           ///< [m]
+    ld_material material;
+    int section_count;
+    ld_section section[LD_MAX_SECTIONS];
+    int point_mass_count;
+    ld_point_mass point_mass[LD_MAX_POINT_MASSES];
+    ld_modes modes;
+    ld_tail tail;
+    int support_count;
+    ld_support support[LD_MAX_SUPPORTS];
+    int station_count;
+    ld_station station[LD_MAX_STATIONS];
+    ld_slot slot;
+    ld_pressure pressure;
+    ld_guide guide;
+} ld_tubes;
+
+#endif
