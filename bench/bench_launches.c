@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-// Sets the mass [kg], runs, and adds the muzzle speed [m/s] and the last deflection of the tip [m].
+// Sets the mass [kg], runs, and adds the exit speed [m/s] and the last deflection of the tip [m].
 static ld_status launch(ld_model *model, double mass, double *sum, ld_error *error)
 {
     char text[40];

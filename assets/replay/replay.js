@@ -143,13 +143,13 @@ class Replay {
   saving(button) {
     return this.tools.element("div", { className: "saving", role: "group", ariaLabel: "Save" },
       button("PNG", () => this.savePicture(), { title: "Save the picture that is shown" }),
-      window.MediaRecorder ? this.filming = button("WebM", () => this.toggleFilm(), { title: "Save a film of the replay, to its end or a second click" }) : null,
-      button("glTF", () => this.saveScene(), { title: "Save the bodies that are shown, for programs that draw in three dimensions" }));
+      window.MediaRecorder ? this.filming = button("WebM", () => this.toggleFilm(), { title: "Save a film of the replay, up to its end or a second click" }) : null,
+      button("glTF", () => this.saveScene(), { title: "Save the bodies shown, for programs that draw in three dimensions" }));
   }
   legend() {
     const { element } = this.tools, item = (name, text) =>
       element("span", {}, element("i", { className: name }), text);
-    if (this.motion.free) return element("div", { className: "key" }, item("rocket", "rocket, of a size made up, and its way"));
+    if (this.motion.free) return element("div", { className: "key" }, item("rocket", "rocket, of an assumed size, and its path"));
     const { guide, shoes } = this.motion.guide.words;
     return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
       item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []));
@@ -274,7 +274,7 @@ class Replay {
       for (const name of this.motion.slides) say("recoil", `recoil.${name}.travel`, "m");
     }
     if (this.stage.view === "path") words.push("rocket enlarged");
-    else if (this.motion.t.at(-1) < this.time) words.push("launcher as it was when its history ended");
+    else if (this.motion.t.at(-1) < this.time) words.push("launcher at the end of its history");
     this.reading.textContent = words.join(" · ");
     this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);
   }

@@ -99,7 +99,7 @@ function flightRows(rockets) {
 
 function measureRows({ measures, rockets }) {
   return (measures ?? []).slice(0, MOST_MEASURES).map(({ name, unit }) =>
-    row(String(name).replaceAll("_", " "), saidOf(rockets.map(({ measure }) => measure?.[name]), unit === "1" ? "" : String(unit)), "as asked for"));
+    row(String(name).replaceAll("_", " "), saidOf(rockets.map(({ measure }) => measure?.[name]), unit === "1" ? "" : String(unit)), "as requested"));
 }
 
 function energy({ energy: found }) {
@@ -110,7 +110,7 @@ function energy({ energy: found }) {
 
 function notesBlock(notes) {
   const list = (some) => some.map((note) => element("li", {}, note));
-  if (notes.length === 0) return element("p", { className: "shown" }, "No notes.");
+  if (notes.length === 0) return element("p", { className: "shown" }, "No warnings.");
   const [first, rest] = [notes.slice(0, MOST_NOTES), notes.slice(MOST_NOTES)];
   return element("div", { className: "warning" }, element("ul", {}, ...list(first)),
     rest.length ? element("details", {}, element("summary", {}, `${rest.length} more`), element("ul", {}, ...list(rest))) : null);
@@ -128,7 +128,7 @@ function headline(rockets, named) {
 // `state`: how the run ended, as a paragraph; `table`: of the launch, if there is one.
 export function answerCard({ summary, state, notes, table, ignition, named }) {
   const rockets = summary?.rockets ?? [], flies = rockets.some(({ flight }) => flight);
-  const count = rockets.length > 1 ? element("p", { className: "shown" }, `Of ${rockets.length} rockets, the least and the greatest.`) : null;
+  const count = rockets.length > 1 ? element("p", { className: "shown" }, `Smallest and largest value of ${rockets.length} rockets.`) : null;
   const rows = !summary ? [] : [...launchRows(rockets, named), ...(table ? moved(table, ignition, named) : []),
     ...(flies ? flightRows(rockets) : []), ...measureRows(summary), energy(summary)];
   return element("section", { className: "card answer", id: "answer" }, element("h2", {}, "The answer"),

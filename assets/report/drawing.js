@@ -233,5 +233,5 @@ export function drawingCard({ geometry, table, rockets, named: words }) {
   };
   new ResizeObserver(draw).observe(host);
   return element("section", { className: "card drawing" },
-    element("h3", {}, "This launcher, to scale ", element("small", {}, "before ignition; dashed is made up")), host);
+    element("h3", {}, "This launcher, to scale ", element("small", {}, "before ignition; dashed: assumed")), host);
 }

@@ -1,7 +1,7 @@
 // Where results come from: the program, the scenario as it was understood, the texts that it was read from.
 import { element } from "./page.js";
 
-const LONG = "Too long for a report; the results' folder keeps it.";
+const LONG = "Too long for a report; it is in the results' folder.";
 
 function folded(name, text) {
   return element("details", {}, element("summary", {}, name), element("pre", { tabIndex: 0 }, text ?? LONG));
@@ -18,7 +18,7 @@ export function originBlock(origin, again) {
     .filter(Boolean).join(", ");
   return element("section", { className: "origin" },
     element("div", { className: "rest" }, element("details", {}, element("summary", {}, "Program and libraries"), program(origin.program)),
-    folded("Scenario as it was understood", origin.scenario),
+    folded("Scenario in SI", origin.scenario),
     ...origin.files.map(([name, text]) => folded(`File ${name}`, text)),
     origin.set.length ? folded("Overrides", origin.set.map((set) => `--set ${set ?? LONG}`).join("\n")) : null),
     element("p", { className: "shown" }, `${drawn ? `This is ${drawn}. ` : ""}${origin.files.length

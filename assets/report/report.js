@@ -23,7 +23,7 @@ function readSummary() {
     const summary = JSON.parse(node.textContent);
     return { summary, tables: showSummary(summary, named), notes: (summary.notes ?? []).map(String) };
   } catch {
-    data.notes.push("No summary: summary.json is not one of a run.");
+    data.notes.push("No summary: summary.json does not belong to a run.");
     return {};
   }
 }
@@ -84,9 +84,9 @@ function chooseLaunch(rocket) {
 // Why there is no replay, or nothing.
 function missing() {
   if (!document.getElementById("replay"))
-    return "No replay: these results do not hold the launcher's geometry. The plots below show the run.";
+    return "No replay: these results do not have the launcher's geometry. The plots below show the run.";
   if (!hasWebGL())
-    return "No replay: this browser gives no WebGL. The plots below show the same run.";
+    return "No replay: this browser has no WebGL. The plots below show the same run.";
   return null;
 }
 
@@ -137,8 +137,8 @@ function showReplay(place, shown, flights) {
 
 function state(summary) {
   const complete = summary ? summary.complete : data.complete;
-  if (complete) return element("p", { className: "state" }, "The run came to its end.");
-  const why = summary?.stopped || data.stopped || "it was stopped, or its results are not whole";
+  if (complete) return element("p", { className: "state" }, "The run is complete.");
+  const why = summary?.stopped || data.stopped || "it was stopped, or its results are incomplete";
   return element("p", { className: "state warning" }, `The run ended early: ${why}`);
 }
 
@@ -188,8 +188,8 @@ const rows = tables.reduce((sum, table) => sum + table.full, 0);
 host.append(element("footer", {}, element("p", {},
   `launchdyn ${data.version}. Drag over a plot to zoom, double-click to see all; with the keyboard: ` +
   "Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
-  (data.pixels === 0 ? `All ${rows} rows of the results are here, `
-    : `Of ${rows} rows those are here that curves need (none is moved by more than ` +
-      `${readable(data.pixels)} of 4000 pixels of the height that it takes in ${data.overAll ? "all" : "each phase"} ` +
+  (data.pixels === 0 ? `The report has all ${rows} rows of the results, `
+    : `Of ${rows} rows the report has those that curves require (error at most ` +
+      `${readable(data.pixels)} of 4000 pixels of the curve's height in ${data.overAll ? "all" : "each phase"} ` +
       "of the run), ") + "to 7 digits.")));
 document.documentElement.dataset.ready = "yes";

@@ -37,8 +37,8 @@ const seriesName = ({ label }, i) =>
 // ---- in what they differ
 
 function stateOf({ summary, complete, stopped }) {
-  if (summary ? summary.complete : complete) return "came to its end";
-  return `ended early: ${summary?.stopped || stopped || "it was stopped, or its results are not whole"}`;
+  if (summary ? summary.complete : complete) return "complete";
+  return `ended early: ${summary?.stopped || stopped || "it was stopped, or its results are incomplete"}`;
 }
 
 function showDifferences() {
@@ -59,7 +59,7 @@ function summaries() {
   try {
     return some.length ? showSummaries(some) : element("div", { id: "tables" });
   } catch {
-    data.notes.push("No summaries: a summary.json is not one of a run.");
+    data.notes.push("No summaries: a summary.json does not belong to a run.");
     return element("div", { id: "tables" });
   }
 }
@@ -109,7 +109,7 @@ function showOver(kind, rocket, heading, nav) {
 const tables = summaries();
 const nav = element("nav", {}, element("a", { href: "#summary-tables" }, "Summary"));
 const titles = new Set(runs.map(({ title }) => title));
-host.replaceChildren(element("header", {}, element("h1", {}, titles.size === 1 ? [...titles][0] : "Runs laid over each other"), nav,
+host.replaceChildren(element("header", {}, element("h1", {}, titles.size === 1 ? [...titles][0] : "Runs overlaid"), nav,
   themeSwitch(), element("p", { className: "legend" }, ...runs.map(seriesName))));
 tables.prepend(showDifferences());
 host.append(element("h2", { id: "summary-tables" }, "Summary"),
@@ -130,6 +130,6 @@ host.append(element("footer", {}, element("p", {},
   `launchdyn ${data.version}. Colours are runs; curves of one run in one plot differ by their dashes. Times count from each run's own ` +
   "ignition; lines at its key instants have its colour, those of the first run their names. Drag over a plot to zoom, double-click to see all; " +
   "with the keyboard: Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
-  (pixels === 0 ? `All ${rows} rows of the results are here, ` : `Of ${rows} rows those are here that curves need (none is moved by more than ` +
-    `${readable(pixels)} of 4000 pixels of the height that it takes in ${overAll ? "all" : "each phase"} of the run), `) + "to 7 digits.")));
+  (pixels === 0 ? `The report has all ${rows} rows of the results, ` : `Of ${rows} rows the report has those that curves require (error at most ` +
+    `${readable(pixels)} of 4000 pixels of the curve's height in ${overAll ? "all" : "each phase"} of the run), `) + "to 7 digits.")));
 document.documentElement.dataset.ready = "yes";

@@ -81,15 +81,15 @@ function states() {
   };
   return [
     some("rockets leave near the vertical: yaw and rates of the ground frame are not meaningful, those of the launcher's axes at ignition are.", steep),
-    some("no sample is there yet.", data.series.filter((series) => series.done === 0)),
-    some("not all samples have been run; the numbers are of those that are there.",
+    some("no samples yet.", data.series.filter((series) => series.done === 0)),
+    some("not all samples have been run; the numbers are of those that have.",
       data.series.filter((series) => series.done > 0 && series.done < series.samples)),
-    some("all samples failed: there is nothing to draw.", data.series.filter((series) => series.done > 0 && series.failed === series.done)),
+    some("all samples failed: nothing to draw.", data.series.filter((series) => series.done > 0 && series.failed === series.done)),
   ];
 }
 
 const titles = new Set(data.series.map((series) => series.title || series.label));
-const title = titles.size === 1 ? [...titles][0] : "Studies beside each other";
+const title = titles.size === 1 ? [...titles][0] : "Studies compared";
 host.classList.toggle("several", data.series.length > 1);
 host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeSwitch(),
   data.series.length > 1 && data.series.length <= MOST_NAMED
@@ -109,9 +109,9 @@ else {
   section("summary", "Answer", ...notes, ...states(), told);
   section("sensitivities", "Sensitivities", shares, otherShares);
 }
-section("measured", "Measured beside simulated", shots.length ? measured(data, shots) : null,
-  shots.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: how many times as far measured values lie from " +
-    "their median as simulated ones. p: how often chance alone makes so much where nothing differs; * below 5\u00a0%, as one in twenty is then.") : null,
+section("measured", "Measured and simulated", shots.length ? measured(data, shots) : null,
+  shots.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: spread of measured values about " +
+    "their median over that of simulated ones. p: probability of such a difference by chance; * below 5\u00a0%, as in one of twenty tests by chance.") : null,
   grid(shots.map((result) => beside(data, result))));
 section("scatter", "Scatter", besides === "scatter" ? null : grid(clouds));
 const openly = data.series.length === 1 && data.pairs.some(({ series: [own] }) => own && statedOf(own).length > 0); // else folded
@@ -125,8 +125,8 @@ section("numbers", "Numbers", rest(data.series.length > 0 ? folded("What was run
 section("origin", "Origin", ...data.studies.filter((study) => study.origin).flatMap((study) => [
   data.studies.length > 1 ? element("h3", {}, study.label) : null, originBlock(study.origin, "study --again")]));
 host.append(element("footer", {}, element("p", {},
-  `launchdyn ${data.version}. Values stand below a plot where the mouse is; with the keyboard: Tab to a plot, arrows, with ` +
-  "Shift by ten, Home and End move the cursor, Escape takes it away. Intervals hold 95 % and count independent groups of " +
-  "samples. study.db in the study's folder keeps everything.")));
+  `launchdyn ${data.version}. Values at the mouse are below a plot; with the keyboard: Tab to a plot, arrows, with ` +
+  "Shift by ten, Home and End move the cursor, Escape removes it. Intervals are 95 % intervals over independent groups of " +
+  "samples. study.db in the study's folder has everything.")));
 // the plots draw themselves once they have a size
 requestAnimationFrame(() => requestAnimationFrame(() => { document.documentElement.dataset.ready = "yes"; }));

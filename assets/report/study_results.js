@@ -2,9 +2,9 @@
 import { DEG, marked, MM, MRAD, ROCKET } from "./results.js";
 
 const MORE = [
-  ["exit.x", "place at the exit, x", "m", 1],
-  ["exit.y", "place at the exit, y", "m", 1],
-  ["exit.z", "place at the exit, z", "m", 1],
+  ["exit.x", "position at the exit, x", "m", 1],
+  ["exit.y", "position at the exit, y", "m", 1],
+  ["exit.z", "position at the exit, z", "m", 1],
   ["exit.vx", "velocity at the exit, x", "m/s", 1],
   ["exit.vy", "velocity at the exit, y", "m/s", 1],
   ["exit.vz", "velocity at the exit, z", "m/s", 1],
@@ -26,7 +26,7 @@ const PARTS = [
   ["Flight", /^(apogee|t_apogee|t_max|stability|downrange|drift|range|t_impact|time_of_flight|impact|max_mach|max_dynamic|max_acceleration|max_angle)/],
   ["Attitude and rates at the exit, ground frame", /^(pitch|yaw)/],
   ["Tip of the tube", /^tip\./],
-  ["Place and velocity at the exit", /^exit\./],
+  ["Position and velocity at the exit", /^exit\./],
   ["Instants", /^t_/],
   ["Greatest forces in the tube", /^max_/],
   ["Hinges from ignition to exit", /^(azimuth|elevation)\./],

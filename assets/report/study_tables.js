@@ -34,7 +34,7 @@ function meanAndDeviation(own, f) {
   return deviation > 0 ? `${said(own.mean[0])} ± ${said(deviation)}` : said(own.mean[0]);
 }
 
-// How much of what was asked for is there.
+// How much of what was requested is there.
 function keptLine({ series }) {
   const sum = (of) => series.reduce((total, one) => total + of(one), 0), failed = sum((s) => s.failed);
   const asked = sum((s) => Math.max(s.samples, s.done));
@@ -90,7 +90,7 @@ export function plans(data) {
     card(title(study, "Plan"), element("table", { className: "statistics" }, ...rows(study.plan),
       ...rows(study.correlated.map((group) => ["correlated", group.join(", ")])))),
     study.factors.length ? card(title(study, "Factors"), element("table", { className: "statistics" },
-      element("tr", {}, head(""), head("distribution", "col", { className: "text" }), head("drawn for", "col", { className: "text" })),
+      element("tr", {}, head(""), head("distribution", "col", { className: "text" }), head("sampled for", "col", { className: "text" })),
       ...rows(study.factors))) : null,
   ]);
 }
@@ -160,7 +160,7 @@ export function measured(data, results) {
     part(result, "mean", (of) => of.mean, (of, f) => [estimate(of.difference, f), chance(of.difference_chance)]),
     part(result, "deviation", (of) => of.deviation, (of) => [estimate(of.ratio, 1), chance(of.ratio_chance)])]);
   const { file, shots, salvos } = data.measured;
-  return card(`Measured in ${file}: ${shots} shots${salvos ? ` of ${salvos} salvos` : ""}`, element("table", { className: "statistics" },
+  return card(`Measured in ${file}: ${shots} launches${salvos ? ` of ${salvos} salvos` : ""}`, element("table", { className: "statistics" },
     several ? element("tr", {}, ...Array.from({ length: 5 }, () => head("")), ...data.series.map((series, i) =>
       head(seriesName(series, i), "colgroup", { colSpan: 3 }))) : null,
     element("tr", {}, ...["", "", "", "shots", "measured", ...data.series.flatMap(() => ["simulated", "difference, ratio", "p"])].map((name) => head(name))),

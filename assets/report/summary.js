@@ -15,7 +15,7 @@ const EQUILIBRIUM = [
   ["chassis.roll", "roll of the chassis", ...MRAD],
   ["azimuth.torque", "azimuth torque", "N m", 1],
   ["elevation.torque", "elevation torque", "N m", 1],
-  ["residual", "largest acceleration left", "m/s²", 1],
+  ["residual", "largest residual acceleration", "m/s²", 1],
 ];
 
 const ENERGY = [
@@ -23,7 +23,7 @@ const ENERGY = [
   ["potential", "potential energy", "J", 1],
   ["elastic", "elastic energy", "J", 1],
   ["work.*", "work: %s", "J", 1],
-  ["residual", "missing in the balance", "J", 1],
+  ["residual", "energy residual", "J", 1],
   ["residual_relative", "over the largest work", "", 1],
 ];
 
@@ -31,7 +31,7 @@ const STATISTICS = [
   ["steps", "steps", "", 1],
   ["rhs_evaluations", "evaluations of the equations", "", 1],
   ["cpu_seconds", "CPU time of the run", "s", 1],
-  ["cpu_seconds_setup", "CPU time of its setting up", "s", 1],
+  ["cpu_seconds_setup", "CPU time of the set-up", "s", 1],
 ];
 
 function at(object, path) {

@@ -380,7 +380,7 @@ bool vehicle_set(vehicle *self, unsigned variable, double value, char *error, si
 {
     if (variable >= VEHICLE_VARIABLES ||
         (variable >= VEHICLE_INPUTS && variable < VEHICLE_OUTPUTS_END))
-        snprintf(error, error_size, "variable %u is no input and no parameter", variable);
+        snprintf(error, error_size, "variable %u is neither an input nor a parameter", variable);
     else if (variable >= VEHICLE_OUTPUTS_END && self->started)
         snprintf(error, error_size, "variable %u is fixed once the vehicle has started", variable);
     else if (!isfinite(value) || (variable == VEHICLE_STEP && !(value > 0)) ||
@@ -398,7 +398,7 @@ bool vehicle_set(vehicle *self, unsigned variable, double value, char *error, si
 bool vehicle_get(vehicle *self, unsigned variable, double *value, char *error, size_t error_size)
 {
     if (variable >= VEHICLE_VARIABLES) {
-        snprintf(error, error_size, "there is no variable %u", variable);
+        snprintf(error, error_size, "variable %u does not exist", variable);
         return false;
     }
     if (self->stale && !find_equilibrium(self, error, error_size))

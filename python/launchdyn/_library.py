@@ -368,8 +368,8 @@ def check_version(number: int, text: str) -> None:
     """Refuses a library of another minor version: names of keys and numbers follow that."""
     major, minor, _ = (int(part) for part in VERSION.split("."))
     if number // 100 != 100 * major + minor:
-        raise ImportError(f"this package goes with launchdyn {major}.{minor}, and the library "
-                          f"found is {text}; LAUNCHDYN_LIBRARY names another one")
+        raise ImportError(f"this package requires launchdyn {major}.{minor}; found the library of "
+                          f"{text}; LAUNCHDYN_LIBRARY sets another one")
 
 
 def load() -> ctypes.CDLL:
@@ -385,13 +385,13 @@ def load() -> ctypes.CDLL:
             try:
                 function = getattr(found, name)
             except AttributeError:
-                raise ImportError(f"{path} has no {name}: it is older than this package, or no "
+                raise ImportError(f"{path} has no {name}: it is older than this package, or not "
                                   "launchdyn") from None
             function.restype, function.argtypes = result, arguments
         check_version(found.ld_version_number(), found.ld_version().decode())
         return found
-    raise ImportError("the library of launchdyn was not found; LAUNCHDYN_LIBRARY may name it. "
-                      "Looked for:\n" + "\n".join(tried))
+    raise ImportError("the library of launchdyn was not found; LAUNCHDYN_LIBRARY sets its path. "
+                      "Searched:\n" + "\n".join(tried))
 
 
 library = load()

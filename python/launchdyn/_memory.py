@@ -33,8 +33,8 @@ class Handle:
         self._freed.atexit = False  # the end of the program frees what is left
 
     def __reduce__(self) -> Any:
-        raise TypeError("objects of launchdyn stay in their process; hand over a scenario as the "
-                        "text that to_yaml() gives, results as arrays")
+        raise TypeError("objects of launchdyn stay in their process; pass a scenario as text "
+                        "(to_yaml()), results as arrays")
 
     def __deepcopy__(self, _: Any) -> Handle:
         return self  # what may be copied does not change

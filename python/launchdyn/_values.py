@@ -174,13 +174,14 @@ def value_text(path: str, value: Any) -> str:
         return " ".join(map(_number, numbers)) + f" {value[1]}"
     if _is_list(value):
         return _list(path, value)
-    raise TypeError(f"{path}: a {type(value).__name__} is no value of a scenario")
+    raise TypeError(f"{path}: a {type(value).__name__} is not a value of a scenario")
 
 
 def set_texts(sets: Sets) -> list[str]:
     """Overrides as "path=value"."""
     if isinstance(sets, str):
-        raise TypeError("overrides are a mapping of paths to values, or a list of PATH=VALUE")
+        raise TypeError("expected overrides as a mapping of paths to values, or as a list of "
+                        "PATH=VALUE")
     if isinstance(sets, Mapping):
         return [f"{path}={value_text(path, value)}" for path, value in sets.items()]
     return list(sets or [])

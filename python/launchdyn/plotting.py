@@ -17,7 +17,7 @@ def _pyplot() -> Any:
     try:
         from matplotlib import pyplot
     except ImportError:
-        raise MissingError("figures need matplotlib (Debian: python3-matplotlib)") from None
+        raise MissingError("figures require matplotlib (Debian: python3-matplotlib)") from None
     return pyplot
 
 
@@ -30,7 +30,7 @@ def _axes(count: int, ax: Any, share: bool) -> list[Any]:
         return [axes for row in made for axes in row]
     given = list(ax) if isinstance(ax, (list, tuple)) or hasattr(ax, "flat") else [ax]
     if len(given) != count:
-        raise ValueError(f"these columns have {count} units and want as many axes; found "
+        raise ValueError(f"these columns have {count} units and require as many axes; found "
                          f"{len(given)}")
     return given
 
@@ -49,7 +49,7 @@ def plot_columns(history: History, names: Sequence[str], over: str, ax: Any,
                  style: Mapping[str, Any]) -> Any:
     """History.plot()."""
     if not names:
-        raise ValueError("name the columns to draw; `columns` lists them")
+        raise ValueError("no columns given; `columns` lists them")
     values = {name: history[name] for name in (over, *names)}
     units: dict[str, list[str]] = {}
     for name in names:
@@ -70,7 +70,7 @@ def plot_study(data: StudyData, names: Sequence[str], over: Optional[str], ax: A
                style: Mapping[str, Any]) -> Any:
     """StudyData.plot()."""
     if not names:
-        raise ValueError("name the results to draw; `results` lists them")
+        raise ValueError("no results given; `results` lists them")
     axes = _axes(len(names), ax, share=over is not None)
     columns, points = data.columns, data.points
     for at, name in zip(axes, names):

@@ -59,8 +59,8 @@ class Margins(NamedTuple):
 def _numbers(values: Numbers) -> Array:
     found: Array = np.ascontiguousarray(np.atleast_1d(values), np.float64)
     if found.ndim != 1:
-        raise ValueError(f"frequencies are a number or a row of numbers; found {found.ndim} "
-                         "dimensions")
+        raise ValueError("expected frequencies as a number or a one-dimensional array, found "
+                         f"{found.ndim} dimensions")
     return found
 
 
@@ -108,7 +108,7 @@ class Response(Held):
 
     def _choose(self, names: Sequence[str]) -> None:
         if not names:
-            raise ValueError("name the columns that shall answer; `columns` lists them")
+            raise ValueError("no columns given; `columns` lists them")
         error = ld_error()
         check_name(library.ld_response_choose(self._pointer, texts(names), len(names),
                                               ctypes.byref(error)), error)
@@ -164,7 +164,7 @@ class Response(Held):
         straight between them, nothing beyond."""
         f, given, error = _numbers(frequency), _numbers(density), ld_error()
         if len(f) != len(given):
-            raise ValueError(f"{len(f)} frequencies want as many densities; found {len(given)}")
+            raise ValueError(f"{len(f)} frequencies require as many densities; found {len(given)}")
         rms, strongest = np.empty(len(names)), np.empty(len(names))
         with self._lock:
             self._choose(names)
@@ -177,10 +177,10 @@ class Response(Held):
     def exit(self, *names: str, draws: int = 0,
              speed: Optional[float] = None) -> dict[str, Scatter]:
         """By what the scenario's road scatters numbers of a launch that a study keeps, such as
-        "pitch_rate": from `draws` launches with drawn phases of the road; 0: to the first order,
+        "pitch_rate": from `draws` launches with sampled phases of the road; 0: to the first order,
         some seconds. Ctrl-C stops it at its next launch."""
         if not names:
-            raise ValueError("name the numbers of the launch")
+            raise ValueError("no results of the launch given")
         error = ld_error()
         mean, deviation = np.empty(len(names)), np.empty(len(names))
         with self._lock, Interrupt() as interrupt:

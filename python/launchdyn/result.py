@@ -55,7 +55,7 @@ def pandas_here() -> Any:
     try:
         import pandas
     except ImportError:
-        raise MissingError("data frames need pandas (Debian: python3-pandas)") from None
+        raise MissingError("data frames require pandas (Debian: python3-pandas)") from None
     return pandas
 
 
@@ -64,7 +64,7 @@ def data_set(variables: Mapping[str, Any], coordinates: Mapping[str, Any]) -> xa
     try:
         import xarray
     except ImportError:
-        raise MissingError("data sets need xarray (Debian: python3-xarray)") from None
+        raise MissingError("data sets require xarray (Debian: python3-xarray)") from None
     return xarray.Dataset(variables, coordinates)
 
 

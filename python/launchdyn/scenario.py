@@ -45,7 +45,7 @@ class Scenario:
     def __init__(self, model: Handle) -> None:
         """Of a model's handle: use read(), from_text(), from_dict() or defaults()."""
         if not isinstance(model, Handle):
-            raise TypeError("a scenario is made by Scenario.read(path), from_text() or from_dict()")
+            raise TypeError("create a scenario by Scenario.read(path), from_text() or from_dict()")
         self._model: Optional[Handle] = model
         self._simulation: Optional[Simulation] = None
         self._drawn = False  # a sample, whose texts say what it was drawn from
@@ -134,8 +134,7 @@ class Scenario:
 
     def _derived(self, sets: Sets) -> Handle:
         if self._drawn:
-            raise ValueError("a sample stays as it was drawn; Scenario.from_text(sample.to_yaml()) "
-                             "can be set")
+            raise ValueError("a sample cannot be changed; Scenario.from_text(sample.to_yaml()) can")
         items = texts(set_texts(sets))
         return read_model(library.ld_model_derive, self.handle.pointer, items, len(items))
 
@@ -245,7 +244,8 @@ class Scenario:
     def response(self, slowest: float = math.nan, fastest: float = math.nan,
                  rub: bool = False) -> Response:
         """Its linear response (docs/response.md), of a vehicle at any speed from `slowest` to
-        `fastest` [m/s], NaN: its own; `rub`: hinges rub as the road moves them."""
+        `fastest` [m/s], NaN: its own; `rub`: friction of the hinges linearised for the motion on
+        the road."""
         return Response(self.handle, slowest, fastest, rub)
 
     def loop(self, hinge: str) -> Loop:
@@ -282,7 +282,7 @@ class Scenario:
         error = ld_error()
         parts = ("all", "vehicle", "launcher")
         if part not in parts:
-            raise ValueError(f"a part is one of {', '.join(parts)}; found {part!r}")
+            raise ValueError(f"expected a part, one of {', '.join(parts)}; found {part!r}")
         check(library.ld_fmu_export(self.handle.pointer, parts.index(part), version,
                                     coded_path(file), ctypes.byref(error)), error,
               self.handle.pointer)

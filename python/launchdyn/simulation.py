@@ -100,7 +100,7 @@ class _Recording:
         self._model, self._output = model, None
         error = ld_error()
         if csv and out is None:
-            raise ValueError("csv needs a folder: out")
+            raise ValueError("csv requires a folder: out")
         if out is not None:
             output = ctypes.c_void_p()
             check(library.ld_output_open(coded_path(out), model.pointer, csv,
@@ -180,7 +180,7 @@ class Simulation:
     def load(self, saved: bytes) -> Run:
         """Goes on where a run that was saved stood (Run.save()), with the same bits."""
         if not isinstance(saved, bytes):
-            raise TypeError(f"expected what Run.save() gave (bytes), found {type(saved).__name__}")
+            raise TypeError(f"expected the bytes of Run.save(), found {type(saved).__name__}")
         return Run(self, saved=saved)
 
     def begin_vehicle(self) -> VehicleRun:

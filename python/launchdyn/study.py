@@ -172,7 +172,7 @@ class Study:
         return _counts(work.counts)
 
     def sample(self, number: int) -> Scenario:
-        """A sample, from 1, as a scenario to look at and to run, with what was drawn for it."""
+        """A sample, from 1, as a scenario to look at and to run, with what was sampled for it."""
         error, pointer = ld_error(), ctypes.c_void_p()
         check(library.ld_study_sample(self.handle.pointer, number, ctypes.byref(pointer),
                                       ctypes.byref(error)), error)
@@ -427,7 +427,7 @@ class StudyData(Held):
         an HDF5 file, or as both; the footprints of their landings as a `footprint` file that ends
         in .csv, .kml or .geojson."""
         if not csv and not hdf5 and not footprint:
-            raise ValueError("name a file to write: csv, hdf5, footprint")
+            raise ValueError("no file given: csv, hdf5, footprint")
         error = ld_error()
         if csv or hdf5:
             check(library.ld_study_export(coded_path(self.folder),

@@ -92,10 +92,10 @@ static ld_status died(const child_work *work, int number, ld_error *error)
 {
     const char *written = work->written[0];
     if (*work->read) // what it writes beside is not foreign
-        return ld_fail(error, LD_ERR_FILE,
-                       "ended by signal %d (%s) while reading %.400s: it is damaged, or there is "
-                       "no memory",
-                       number, strsignal(number), work->read);
+        return ld_fail(
+            error, LD_ERR_FILE,
+            "ended by signal %d (%s) while reading %.400s: the file is damaged, or memory ran out",
+            number, strsignal(number), work->read);
     return ld_fail(error, LD_ERR_FILE, "ended by signal %d (%s)%s%.400s", number, strsignal(number),
                    *written ? " while writing " : "", written);
 }
@@ -121,7 +121,7 @@ static ld_status judge(const child_work *work, int status, int *code, ld_error *
     clear_up(work);
     if (WIFEXITED(status))
         return ld_fail(error, LD_ERR_FILE,
-                       "ended by a library (code %d), as where there is no memory", *code);
+                       "a library ended the process (code %d); memory may have run out", *code);
     return asks_to_end(WTERMSIG(status)) ? LD_OK : died(work, WTERMSIG(status), error);
 }
 

@@ -28,7 +28,7 @@ static bool take(text_lines *lines)
     size_t length = (size_t)((stop ? stop : lines->end) - lines->next);
     lines->number++;
     if (length >= TEXT_LINES_LENGTH || memchr(lines->next, '\0', length))
-        return refuse(lines, "this line is no text, or too long");
+        return refuse(lines, "this line is not text, or is too long");
     memcpy(lines->text, lines->next, length);
     lines->text[length] = '\0';
     lines->next += length + (stop ? 1 : 0);

@@ -30,7 +30,7 @@ static ld_status unknown_figure(const char *name, ld_error *error)
         snprintf(list + length, sizeof list - length, "%s%s", count ? ", " : "", figure->name);
     }
     const char *nearest = ld_nearest_name(name, names, count);
-    return ld_fail(error, LD_ERR_INPUT, "there is no figure \"%.40s\"%s%s%s; there are %s", name,
+    return ld_fail(error, LD_ERR_INPUT, "unknown figure \"%.40s\"%s%s%s; expected one of %s", name,
                    nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "",
                    list);
 }
@@ -45,8 +45,8 @@ ld_status plot_format_of(const char *file, plot_format *format, ld_error *error)
             *format = (plot_format)i;
             return LD_OK;
         }
-    return ld_fail(error, LD_ERR_INPUT, "a picture's name ends in .svg, .pdf or .png: %.200s",
-                   file);
+    return ld_fail(error, LD_ERR_INPUT,
+                   "expected a picture's name that ends in .svg, .pdf or .png, found %.200s", file);
 }
 
 // ---- gnuplot ----
@@ -293,14 +293,14 @@ static ld_status draw_runs(const ld_picture *picture, const history_data *run, p
 static ld_status check_picture(const ld_picture *picture, ld_error *error)
 {
     if (picture->folder_count == 0 || picture->folder_count > PLOT_RUNS)
-        return ld_fail(error, LD_ERR_INPUT, "name 1 to %d folders with results", PLOT_RUNS);
+        return ld_fail(error, LD_ERR_INPUT, "expected 1 to %d folders with results", PLOT_RUNS);
     for (size_t i = 0; i < picture->figure_count; i++)
         if (strcmp(picture->figure[i], "all") != 0 && !plot_figure_find(picture->figure[i]))
             return unknown_figure(picture->figure[i], error);
     if (!plot_style_find(picture->style, error))
         return LD_ERR_INPUT;
     if (picture->width != 0 && !(picture->width >= 0.05 && picture->width <= 0.5))
-        return ld_fail(error, LD_ERR_INPUT, "a picture is 50 mm to 500 mm wide, not %g mm",
+        return ld_fail(error, LD_ERR_INPUT, "found a width of %g mm, expected 50 mm to 500 mm",
                        picture->width * 1e3);
     if (picture->from >= picture->to)
         return ld_fail(error, LD_ERR_INPUT, "there is nothing to draw from %g ms to %g ms",

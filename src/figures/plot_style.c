@@ -29,9 +29,8 @@ const plot_style *plot_style_find(const char *name, ld_error *error)
             return &styles[i];
     }
     const char *nearest = ld_nearest_name(name, names, STYLES);
-    ld_fail(error, LD_ERR_INPUT,
-            "there is no style \"%.40s\"%s%s%s; there are screen, dark and paper", name,
-            nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
+    ld_fail(error, LD_ERR_INPUT, "unknown style \"%.40s\"%s%s%s; expected screen, dark or paper",
+            name, nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
     return NULL;
 }
 

@@ -198,7 +198,7 @@ static ld_status find_input(ld_response_view *view, const char *name, ld_error *
 static const ld_column of_loop[] = {
     {"open", "1", "loop, opened"},
     {"tracking", "1", "measured angle per commanded one"},
-    {"sensitivity", "1", "what is left of an error that would be without a loop"},
+    {"sensitivity", "1", "share of an error that the loop leaves"},
     {"rejection", "1", "angle of the platform per angle of the chassis about the hinge"},
 };
 enum { OF_LOOP = sizeof of_loop / sizeof *of_loop };
@@ -222,7 +222,7 @@ static ld_status set_frequencies(ld_response_view *view, double from, double to,
     to = isnan(to) ? 50 : to;
     if (!(from > 0 && to > from && isfinite(to)))
         return ld_fail(error, LD_ERR_INPUT,
-                       "%g Hz to %g Hz is no range of frequencies: it goes up, from above 0", from,
+                       "found %g Hz to %g Hz, expected a rising range of frequencies above 0", from,
                        to);
     view->count = POINTS;
     view->x = malloc((1 + 2 * view->columns) * POINTS * sizeof(double));
@@ -349,7 +349,7 @@ static ld_status set_speeds(ld_response_view *view, double step, ld_error *error
         count = 1;
     if (!(count >= 1 && count <= MOST_SPEEDS))
         return ld_fail(error, LD_ERR_INPUT,
-                       "speeds from %g km/h to %g km/h by %g km/h are none, or more than %d",
+                       "speeds from %g km/h to %g km/h by %g km/h: expected 1 to %d speeds",
                        KMH * view->slowest, KMH * view->fastest, KMH * step, MOST_SPEEDS);
     view->speeds = (size_t)count;
     view->speed = malloc((1 + 2 * view->columns) * view->speeds * sizeof(double));
@@ -410,27 +410,29 @@ static ld_status check_wish(const ld_model *model, const ld_response_wish *wish,
 {
     bool over_speeds = !isnan(wish->step);
     if (wish->loop && (wish->input || over_speeds || wish->what_count > 0))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a loop is shown by itself at one speed: without input, quantities, speeds");
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "a loop is shown separately, at one speed: it excludes input, quantities, speeds");
     if (wish->input && over_speeds)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a frequency response is one at one speed: speeds go with the road alone");
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "a frequency response is at one speed: several speeds require the road as input");
     if (wish->exit && (wish->input || wish->loop))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the road scatters the exit: it is shown without input and loop");
+                       "the scatter of the exit is caused by the road: it excludes input and loop");
     if (wish->draws && !wish->exit)
-        return ld_fail(error, LD_ERR_INPUT, "draws are those of the exit: they go with it alone");
+        return ld_fail(error, LD_ERR_INPUT, "draws require the scatter of the exit");
     if (wish->loop && wish->rub)
         return ld_fail(error, LD_ERR_INPUT, "a loop is shown without friction of the hinges");
     if (wish->density && !wish->input)
         return ld_fail(error, LD_ERR_INPUT,
-                       "a spectral density is that of an input: it wants the name of one "
+                       "a spectral density is that of an input: it requires the name of one "
                        "(launchdyn response --list lists them)");
     if (!wish->loop && !wish->input && !wish->exit && model_has_launcher(model) &&
         !model_has_vehicle(model))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the base is no vehicle on a road: a response wants the name of an input "
-                       "(launchdyn response --list lists them)");
+                       "the base is not a vehicle on a road: a response requires the name of an "
+                       "input (launchdyn response --list lists them)");
     return LD_OK;
 }
 
@@ -624,7 +626,7 @@ static void print_speeds(const ld_response_view *view, FILE *stream)
 static void print_exit_method(const ld_response_view *view, FILE *stream)
 {
     if (view->draws)
-        fprintf(stream, "%d launches with drawn phases of the road\n", view->draws);
+        fprintf(stream, "%d launches with sampled phases of the road\n", view->draws);
     else
         fputs("First order in the road: contacts that open and close make some deviations too "
               "large, pitch and yaw by up to one half; --draws N has no such error\n",
@@ -659,13 +661,13 @@ static void print_loop(const ld_response_view *view, FILE *stream)
     ld_loop_margins margins;
     ld_loop_margins_of(view->loop, &margins);
     fputs("\nMargins\n", stream);
-    print_gain(stream, "gain may be raised by a factor of", margins.raise, margins.raise_at);
-    print_gain(stream, "gain may be lowered by a factor of", margins.lower, margins.lower_at);
+    print_gain(stream, "gain margin upwards, factor", margins.raise, margins.raise_at);
+    print_gain(stream, "gain margin downwards, factor", margins.lower, margins.lower_at);
     if (isnan(margins.crossover)) {
-        fputs("  the loop's gain nowhere is one\n", stream);
+        fputs("  the loop's gain is nowhere 1\n", stream);
     } else {
         fprintf(stream, "  %-34s %10.4g degrees\n", "phase", DEGREE * margins.phase);
-        fprintf(stream, "  %-34s %10.4g ms\n", "delay that it bears besides", 1e3 * margins.delay);
+        fprintf(stream, "  %-34s %10.4g ms\n", "delay margin", 1e3 * margins.delay);
         fprintf(stream, "  %-34s %10.4g Hz\n", "crossover", margins.crossover);
     }
     fputs("\nClosed\n", stream);
@@ -680,7 +682,7 @@ static void print_loop(const ld_response_view *view, FILE *stream)
                 margins.peak_at);
     const double *rejection = view->value + (OF_LOOP - 1) * view->count;
     size_t k = greatest(rejection, view->count);
-    fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "most of the chassis' turning let in",
+    fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "largest share of the chassis' rotation",
             rejection[k], view->x[k]);
 }
 
@@ -690,10 +692,11 @@ void ld_response_view_print(const ld_response_view *view, FILE *stream)
     const ld_road *road = &view->model->base.vehicle.road;
     describe(view, text, sizeof text);
     fprintf(stream, "%s; linear about the equilibrium, %s\n", text,
-            view->rub ? "hinges rub as the road moves them" : "no Coulomb friction in the hinges");
+            view->rub ? "friction of the hinges linearised for the motion on the road"
+                      : "no Coulomb friction in the hinges");
     bool on_road = view->kind == SPECTRUM || is_over_speeds(view);
     if (on_road && (road->bump_count > 0 || road->profile.rows > 0))
-        fputs("Bumps and profile of the road are left out: they come once\n", stream);
+        fputs("Bumps and profile of the road are left out: they occur once\n", stream);
     if (view->kind == EXIT)
         print_exit_method(view, stream);
     if (view->kind == LOOP)
@@ -889,7 +892,7 @@ static ld_status add_values(const ld_response_view *view, chart_page *page, ld_e
     }
     if (page->count == 0)
         return ld_fail(error, LD_ERR_INPUT,
-                       "none of these quantities answers before the launch, nothing is drawn");
+                       "none of these quantities responds before the launch, nothing is drawn");
     for (size_t i = 0; i < page->count; i++)
         name_chart(view, page, i);
     return LD_OK;
@@ -937,7 +940,7 @@ ld_status ld_response_view_draw(const ld_response_view *view, const char *file, 
     char heading[NAME];
     if (view->kind == EXIT && view->speeds == 1)
         return ld_fail(error, LD_ERR_INPUT,
-                       "the exit's scatter is drawn over speeds: --speeds says which");
+                       "the scatter of the exit is drawn over speeds: set --speeds");
     chart_page *page = calloc(1, sizeof *page);
     if (!page)
         return no_memory(error);

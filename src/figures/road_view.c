@@ -48,7 +48,8 @@ static ld_status set_stretch(ld_road_view *view, ld_stretch stretch, ld_error *e
     double places = floor((s->to - s->from) / s->step * (1 + 1e-12)) + 1;
     if (!(s->step > 0 && places >= 2 && places <= MOST_PLACES))
         return ld_fail(error, LD_ERR_INPUT,
-                       "a stretch of road needs 2 to %d places: from %g m to %g m by %g m has not",
+                       "a section of road requires 2 to %d points; from %g m to %g m by %g m has "
+                       "another number",
                        MOST_PLACES, s->from, s->to, s->step);
     view->count = (size_t)places;
     return LD_OK;
@@ -115,7 +116,7 @@ static ld_status fill(ld_road_view *view, ld_error *error)
     const ld_stretch *s = &view->stretch;
     view->x = malloc(3 * view->count * sizeof(double));
     if (!view->x)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for %zu places", view->count);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %zu points", view->count);
     for (size_t i = 0; i < view->count; i++)
         view->x[i] = s->from + (double)i * s->step;
     ld_status status = road_build(view->model, s->from, s->from, &self, error);
@@ -139,7 +140,7 @@ ld_status ld_road_view_create(const ld_model *model, ld_stretch stretch, ld_road
                               ld_error *error)
 {
     if (!model_has_vehicle(model))
-        return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is no vehicle");
+        return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is not a vehicle");
     ld_road_view *created = calloc(1, sizeof *created);
     if (!created)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a road");
@@ -206,8 +207,8 @@ static void print_class(const ld_road_view *view, FILE *stream)
         return;
     if (isnan(estimate->density)) {
         fprintf(stream,
-                "\nClass of ISO 8608: not told; it takes waves of 5 m to 10 m, the stretch shows "
-                "those of %.2g m to %.2g m\n",
+                "\nClass of ISO 8608: not determined; it requires waves of 5 m to 10 m, the "
+                "section has those of %.2g m to %.2g m\n",
                 1 / estimate->to, 1 / estimate->from);
         return;
     }

@@ -46,7 +46,7 @@ static ld_status allocate(wind_series *series, size_t count, ld_error *error)
     series->count = count;
     series->s = malloc((AXES + 1) * count * sizeof(double));
     if (!series->s)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for a wind at %zu places", count);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a wind at %zu points", count);
     for (int axis = 0; axis < AXES; axis++)
         series->v[axis] = series->s + (size_t)(axis + 1) * count;
     return LD_OK;
@@ -106,9 +106,10 @@ static ld_status set_line(ld_wind_view *view, ld_error *error)
         section->step = 0.03 * fmin(view->at_height.L_u, view->at_height.L_w);
     double places = floor(section->length / section->step * (1 + 1e-12)) + 1;
     if (!(section->step > 0 && places >= 2 && places <= MOST_PLACES))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a line through the air needs 2 to %d places: %g m by %g m has not",
-                       MOST_PLACES, section->length, section->step);
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "a line through the air requires 2 to %d points; %g m by %g m has another number",
+            MOST_PLACES, section->length, section->step);
     return allocate(&view->turbulence, (size_t)places, error);
 }
 
@@ -187,9 +188,9 @@ ld_status ld_wind_view_create(const ld_model *model, ld_wind_section section, ld
     if (!model->environment.wind.present)
         return ld_fail(error, LD_ERR_INPUT, "there is no wind in the scenario");
     if (!(section.height >= 0 && section.top > 0 && section.rocket >= 1))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a wind is shown at a height from 0 m on, below a top above 0 m, for a "
-                       "rocket from 1 on");
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "expected a height of at least 0 m, a top above it and the number of a rocket from 1");
     ld_wind_view *created = calloc(1, sizeof *created);
     if (!created)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a wind");

@@ -78,7 +78,7 @@ static const quantity_group groups[] = {
 // clang-format on
 
 _Static_assert((sizeof flight + sizeof on_earth) / sizeof *flight <= FLIGHT_MAX_COLUMNS,
-               "rows of flights have no room");
+               "the rows of flights exceed their buffer");
 
 const quantity_table flight_quantities = {groups, sizeof groups / sizeof *groups};
 

@@ -217,9 +217,8 @@ static ld_status check_table(flight_run *run)
     dormand_prince_between(&run->steps, t, y);
     v3 r = flight_center(run->job->system, t, y).r;
     return ld_fail(run->error, LD_ERR_LAUNCH,
-                   "%s: ends at Mach %.4g, beyond which the rocket goes at "
-                   "t = %.4f s, x = %.1f m, y = %.1f m, z = %.1f m (beyond_table: hold keeps the "
-                   "last values)",
+                   "%s: ends at Mach %.4g; the rocket exceeds it at t = %.4f s, x = %.1f m, y = "
+                   "%.1f m, z = %.1f m (`beyond_table: hold` keeps the last values)",
                    run->job->system->aerodynamics.last_of, run->job->system->aerodynamics.last_mach,
                    t, r.x, r.y, r.z);
 }
@@ -229,12 +228,11 @@ static ld_status check_limit(flight_run *run, double t)
     double limit = run->job->model->run.flight_limit;
     if (isfinite(run->job->t_end) || t < run->t_limit)
         return LD_OK;
-    return ld_fail(
-        run->error, LD_ERR_LAUNCH,
-        run->job->model->run.end == LD_END_APOGEE
-            ? "the rocket has not come to its highest point within the flight limit of %.6g s"
-            : "the rocket has not landed within the flight limit of %.6g s",
-        limit);
+    return ld_fail(run->error, LD_ERR_LAUNCH,
+                   run->job->model->run.end == LD_END_APOGEE
+                       ? "the rocket has not reached its apogee within the flight limit of %.6g s"
+                       : "the rocket has not landed within the flight limit of %.6g s",
+                   limit);
 }
 
 // Every 50 ms of flight; the share by the time that the rocket would need to fall without air.
@@ -561,14 +559,14 @@ static void open_parachute(flight_run *run, int i, double t, double *y)
     if (system->has_ground)
         opened->height -= system->ground;
     if (run->phase.burning && !run->phase.hangs)
-        summary_note(run->summary,
-                     "parachute %s opened at t = %.4f s while the motor was burning: its thrust "
-                     "counts no more",
-                     one->name, t);
+        summary_note(
+            run->summary,
+            "parachute %s opened at t = %.4f s while the motor was burning: the thrust ends there",
+            one->name, t);
     if (run->phase.hangs && one->drag_area < run->area)
         summary_note(run->summary,
-                     "parachute %s, of %.4g m2, opened at t = %.4f s in the place of one of %.4g "
-                     "m2: it brakes less",
+                     "parachute %s of %.4g m2, opened at t = %.4f s, replaced one of %.4g m2: the "
+                     "drag falls",
                      one->name, one->drag_area, t, run->area);
     bool at_once = one->filling == 0 || one->drag_area == before;
     flight_hang(system, &run->phase, t, one->drag_area,
@@ -705,8 +703,8 @@ static ld_status check_steps(const flight_run *run)
     if (steps->step.steps < 1000 || spent >= least * steps->step.steps)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_NUMERIC,
-                   "the flight's steps are too short to go on: %lld for %.6g s, up to t = %.9g s; "
-                   "are the air's forces far too strong for the rocket's inertia?",
+                   "the flight's steps are too short to continue: %lld steps for %.6g s, up to t = "
+                   "%.9g s; check aerodynamics and inertia",
                    (long long)steps->step.steps, spent, steps->step.t);
 }
 
@@ -730,8 +728,8 @@ ld_status flight_run_look(flight_run *run)
     dormand_prince *steps = &run->steps;
     if (steps->step.outcome == DORMAND_PRINCE_LOST)
         return ld_fail(run->error, LD_ERR_NUMERIC,
-                       "the equations of flight gave no finite result, or the step size fell to "
-                       "nothing, at t = %.9g s",
+                       "the equations of flight gave no finite result, or the step size fell to 0, "
+                       "at t = %.9g s",
                        steps->step.t);
     double apex = find_apex(run);
     bool cut = cut_step(run, &apex), stopped = cut || steps->step.t == steps->step.t_stop;
@@ -792,7 +790,7 @@ static void note(flight_run *run)
         run->job->system->rocket->aerodynamics.beyond_table == LD_BEYOND_HOLD)
         summary_note(run->summary,
                      "beyond the aerodynamic table (Mach %.4g) from t = %.4f s on, up to Mach "
-                     "%.4g: its last values were held",
+                     "%.4g: its last values were used",
                      run->job->system->aerodynamics.last_mach, run->t_beyond, run->extremes.mach);
     if (!isnan(run->t_tumbling))
         summary_note(run->summary,
@@ -824,11 +822,11 @@ static void note_unstable(flight_run *run, const double *state, const flight_flo
     double across = sqrt(mass.J.a[1][1] * mass.J.a[2][2]);
     double factor = pow(mass.J.a[0][0] * state[FLIGHT_W], 2) / (4 * across * slope);
     if (factor < 1)
-        summary_note(run->summary,
-                     "the rocket is unstable at t = %.4f s: its stability margin is %.2f "
-                     "calibres, and its spin does not keep it straight (gyroscopic factor "
-                     "%.3g, where more than 1 is needed)",
-                     t, margin, factor);
+        summary_note(
+            run->summary,
+            "the rocket is unstable at t = %.4f s: its stability margin is %.2f calibres, and its "
+            "spin does not stabilise it (gyroscopic factor %.3g, expected more than 1)",
+            t, margin, factor);
 }
 
 ld_status flight_run_begin(flight_run *run, const free_flight *job, const double *state,

@@ -105,10 +105,10 @@ static ld_status open_instance(component *self, fmi2Type type, const char *guid,
 {
     char path[PATH_SIZE];
     if (type != fmi2CoSimulation && type != fmi2ModelExchange)
-        return ld_fail(error, LD_ERR_INPUT, "there is no type %d of an FMU", (int)type);
+        return ld_fail(error, LD_ERR_INPUT, "found FMU type %d, which is unknown", (int)type);
     if (!guid || !resources || !path_of(resources, path))
         return ld_fail(error, LD_ERR_INPUT,
-                       "GUID or place of the resources is missing or too long");
+                       "GUID or location of the resources is missing or too long");
     self->inside = fmu_instance_new(path, guid, type == fmi2ModelExchange, error);
     return self->inside ? LD_OK : error->status;
 }

@@ -73,7 +73,7 @@ static void *open_instance(const char *token, const char *resources, const compo
 {
     ld_error error;
     if (!token || !resources)
-        return refuse(log, environment, "token or place of the resources is missing");
+        return refuse(log, environment, "token or location of the resources is missing");
     component *self = calloc(1, sizeof *self);
     if (!self)
         return refuse(log, environment, "no memory");
@@ -101,7 +101,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
 {
     (void)name, (void)visible, (void)logging, (void)intermediate, (void)update;
     if (intermediates > 0)
-        return refuse(log, environment, "there are no variables between communication points");
+        return refuse(log, environment, "intermediate updates are not supported");
     return open_instance(token, resources, &(component){.at_events = event_mode && early_return},
                          environment, log);
 }
@@ -113,7 +113,7 @@ void *fmi3InstantiateScheduledExecution(const char *name, const char *token, con
 {
     (void)name, (void)token, (void)resources, (void)visible, (void)logging;
     (void)clock, (void)lock, (void)unlock;
-    return refuse(log, environment, "this FMU is one for co-simulation and model exchange");
+    return refuse(log, environment, "this FMU supports co-simulation and model exchange");
 }
 
 void fmi3FreeInstance(void *instance)
@@ -181,9 +181,8 @@ static fmi3Status check_counts(const component *self, size_t references, size_t 
     return references == values
                ? fmi3OK
                : answer(self,
-                        ld_fail(&error, LD_ERR_INPUT,
-                                "%zu values for %zu variables, all of which are scalars", values,
-                                references),
+                        ld_fail(&error, LD_ERR_INPUT, "found %zu values for %zu scalar variables",
+                                values, references),
                         &error);
 }
 

@@ -17,7 +17,7 @@ static ld_status check_exchange(const fmu_instance *self, ld_error *error)
 {
     if (!self->exchange.is)
         return ld_fail(error, LD_ERR_INPUT,
-                       "this instance is one for co-simulation: it takes its steps itself");
+                       "this is a co-simulation instance: it has its own integrator");
     return LD_OK;
 }
 
@@ -42,7 +42,7 @@ ld_status fmu_set_time(fmu_instance *self, double t, ld_error *error)
 {
     ld_status status = check_mode(self, true, error);
     if (!status && !isfinite(t))
-        status = ld_fail(error, LD_ERR_INPUT, "the time is no number");
+        status = ld_fail(error, LD_ERR_INPUT, "the time is not a number");
     if (status)
         return status;
     self->exchange.moved |= t != self->exchange.t;
@@ -63,7 +63,7 @@ static ld_status check_count(const fmu_instance *self, fmu_vector which, size_t 
     size_t wanted = count_of(self, which);
     if (count == wanted)
         return LD_OK;
-    return ld_fail(error, LD_ERR_INPUT, "%zu numbers for %zu %s", count, wanted,
+    return ld_fail(error, LD_ERR_INPUT, "found %zu numbers for %zu %s", count, wanted,
                    which == FMU_INDICATORS ? "event indicators" : "continuous states");
 }
 
@@ -76,7 +76,7 @@ ld_status fmu_set_states(fmu_instance *self, const double *x, size_t count, ld_e
     for (size_t i = 0; !status && i < count; i++)
         sum += 0 * x[i];
     if (!status && sum != 0)
-        status = ld_fail(error, LD_ERR_NUMERIC, "a state is no number");
+        status = ld_fail(error, LD_ERR_NUMERIC, "a state is not a number");
     if (status)
         return status;
     memcpy(self->exchange.x, x, count * sizeof *x);

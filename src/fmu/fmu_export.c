@@ -194,12 +194,13 @@ ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, co
     contents from = {.model = model, .version = version};
     char kind[16];
     if (version != 2 && version != 3)
-        return ld_fail(error, LD_ERR_INPUT, "there is no FMI %d here, but 2 and 3", version);
+        return ld_fail(error, LD_ERR_INPUT, "found FMI %d, expected 2 or 3", version);
     if (!ld_model_text(model, "base.kind", kind, sizeof kind, NULL) && strcmp(kind, "fmu") == 0)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a launch on base.kind: fmu is not exported: an FMU runs no other FMU");
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "a launch on base.kind: fmu cannot be exported: an FMU cannot run another FMU");
     if (fmu_binary_end - fmu_binary < 2)
-        return ld_fail(error, LD_ERR_MISSING, "this launchdyn was built without what an FMU holds");
+        return ld_fail(error, LD_ERR_MISSING, "this launchdyn was built without FMU export");
     locale_t before = numeric_locale_enter();
     ld_status status = print_scenario(model, &from, error);
     if (!status)

@@ -133,14 +133,15 @@ static ld_status check_columns(const fmu_instance *self, ld_error *error)
             continue;
         found++;
         if ((size_t)v->index >= columns || strcmp(column[v->index].name, v->name) != 0)
-            return ld_fail(error, LD_ERR_INPUT,
-                           "with these parameters there is no output %s: export it with them",
-                           v->name);
+            return ld_fail(
+                error, LD_ERR_INPUT,
+                "with these parameters the output %s does not exist: export the FMU with them",
+                v->name);
     }
     return found + 1 == columns ? LD_OK
                                 : ld_fail(error, LD_ERR_INPUT,
                                           "with these parameters there are %zu columns for %zu "
-                                          "outputs: export it with them",
+                                          "outputs: export the FMU with them",
                                           columns, found + 1);
 }
 
@@ -270,8 +271,8 @@ ld_status fmu_begin(fmu_instance *self, ld_error *error)
     self->told_set = false;
     if (number_of(self, FMU_WAIT, 0) != 0 && runner->ignite(self->run, INFINITY, NULL))
         status = ld_fail(error, LD_ERR_INPUT,
-                         "ignition_by_input wants a rocket that is not lit at the start: give "
-                         "scenario.run.lead_in, or a later firing");
+                         "ignition_by_input requires a rocket that is not ignited at the start: "
+                         "set scenario.run.lead_in, or a later firing");
     if (status)
         end_run(self);
     return status;
@@ -304,8 +305,7 @@ static ld_status read_scenario(fmu_instance *self, const char *resources, const 
     if (status)
         return status;
     if (strcmp(token, own) != 0)
-        return ld_fail(error, LD_ERR_INPUT, "the token is %.100s, that of this FMU is %s", token,
-                       own);
+        return ld_fail(error, LD_ERR_INPUT, "found the token %.100s, expected %s", token, own);
     self->source = fmu_source_read(resources, error);
     return self->source ? LD_OK : error->status;
 }
@@ -328,7 +328,7 @@ static ld_status make_room(fmu_instance *self, ld_error *error)
 static ld_status check_exchange(const fmu_instance *self, ld_error *error)
 {
     if (!self->variables.runner->exchanging)
-        return ld_fail(error, LD_ERR_MISSING, "this FMU is one for co-simulation");
+        return ld_fail(error, LD_ERR_MISSING, "this FMU supports co-simulation");
     return launch_outside_check(self->simulation, error);
 }
 
@@ -408,7 +408,7 @@ ld_status fmu_set_experiment(fmu_instance *self, double start, double tolerance,
     if (self->model) // else its parameters were refused
         ld_model_number(self->model, "run.tolerance", &usual, NULL);
     if (!isfinite(start))
-        return ld_fail(error, LD_ERR_INPUT, "the start time is no number");
+        return ld_fail(error, LD_ERR_INPUT, "the start time is not a number");
     end_run(self);
     self->start = start;
     self->tolerance = tolerance > 0 && tolerance != usual ? tolerance : 0;
@@ -431,7 +431,7 @@ static const fmu_variable *find(const fmu_instance *self, unsigned reference, va
                                 ld_error *error)
 {
     if (reference >= self->variables.count) {
-        ld_fail(error, LD_ERR_INPUT, "there is no variable %u", reference);
+        ld_fail(error, LD_ERR_INPUT, "variable %u does not exist", reference);
         return NULL;
     }
     const fmu_variable *variable = &self->variables.item[reference];
@@ -559,7 +559,8 @@ static ld_status take_change(fmu_instance *self, const fmu_variable *variable, u
                              ld_error *error)
 {
     if (!fmu_is_input(variable) && !fmu_is_parameter(variable))
-        return ld_fail(error, LD_ERR_INPUT, "%s is no input and no parameter", variable->name);
+        return ld_fail(error, LD_ERR_INPUT, "%s is neither an input nor a parameter",
+                       variable->name);
     if (fmu_is_parameter(variable) && self->going)
         return ld_fail(error, LD_ERR_INPUT, "%s is fixed once the run has begun", variable->name);
     if (!self->going)
@@ -654,12 +655,12 @@ ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events,
     *step = (fmu_step){.t = now};
     if (self->exchange.is)
         return ld_fail(error, LD_ERR_INPUT,
-                       "this instance is one for model exchange: its importer takes the steps");
+                       "this is a model-exchange instance: its importer integrates it");
     if (!self->going)
         return ld_fail(error, LD_ERR_INPUT, "the run has not begun");
     if (!(fabs(t - now) <= 1e-9 * fmax(1, fabs(t))) || !(size >= 0) || !isfinite(t + size))
         return ld_fail(error, LD_ERR_INPUT,
-                       "a step of %.17g s from %.17g s, where the run is at %.17g s", size, t, now);
+                       "found a step of %.17g s from %.17g s; the run is at %.17g s", size, t, now);
     ld_status status = apply_inputs(self, error);
     fmu_forget_outputs(self);
     if (!status && at_events)
@@ -783,7 +784,7 @@ static ld_status read_state(fmu_instance *twin, const fmu_instance *self, const 
     archive head = archive_load(state->bytes, state->size);
     archive_head(twin, &head, &following);
     if (head.failed || head.at + (size_t)following != state->size)
-        return ld_fail(error, LD_ERR_INPUT, "this is no state of this FMU, or a damaged one");
+        return ld_fail(error, LD_ERR_INPUT, "this is not a state of this FMU, or is damaged");
     if (self->simulation && parameters_digest(twin) == self->built_with) {
         twin->model = self->model;
         twin->simulation = self->simulation;
@@ -839,8 +840,8 @@ ld_status fmu_state_read(const void *bytes, size_t size, fmu_state **state, ld_e
 ld_status fmu_state_write(const fmu_state *state, void *bytes, size_t size, ld_error *error)
 {
     if (size < state->size)
-        return ld_fail(error, LD_ERR_INPUT, "%zu bytes have no room for a state of %zu", size,
-                       state->size);
+        return ld_fail(error, LD_ERR_INPUT, "a buffer of %zu bytes is too small for a state of %zu",
+                       size, state->size);
     memcpy(bytes, state->bytes, state->size);
     return LD_OK;
 }

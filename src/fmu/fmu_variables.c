@@ -180,7 +180,7 @@ static void add_frame(gathering *self, fmu_group group, const char *prefix, cons
     memcpy(part, frame_parts, sizeof part);
     if (group == FMU_TOLD)
         part[QUATERNION].description = "Axes of the undeformed tube against I, scalar first; all "
-                                       "zero: the frame is not told yet, it goes on as it began";
+                                       "zero: not reported yet, the frame continues as it began";
     add_exchanged(self, group, prefix, part, PARTS, start);
 }
 
@@ -327,11 +327,11 @@ static void add_ignition(gathering *self)
     if (!self->into->runner->ignite)
         return;
     begin_group(self);
-    add(self, FMU_IGNITE, "input.ignition", "", "Lights the waiting rocket when it becomes true", 0,
-        NULL);
+    add(self, FMU_IGNITE, "input.ignition", "", "Ignites the waiting rocket when it becomes true",
+        0, NULL);
     begin_group(self);
     add(self, FMU_WAIT, "ignition_by_input", "",
-        "No rocket is lit at its time in the scenario, but by input.ignition alone", 0, NULL);
+        "Rockets are ignited by input.ignition, not at their times in the scenario", 0, NULL);
 }
 
 ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
@@ -342,7 +342,7 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
     gathering all = {.into = self, .model = model};
     double told[FMU_MOST_NUMBERS];
     if (!ld_model_has_launcher(model))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher that could be stepped");
+        return ld_fail(error, LD_ERR_INPUT, "a scenario of flight only has no launcher to step");
     memcpy(told, part->start, sizeof told);
     void *run = runner->begin(simulation, told, error);
     if (!run)

@@ -122,7 +122,7 @@ static double number(description_reader *self, const XML_Char **attributes, cons
     const char *text = attribute(attributes, name);
     double value = otherwise;
     if (text && !number_of(text, &value))
-        fail(self, LD_ERR_INPUT, "no number: ", text);
+        fail(self, LD_ERR_INPUT, "found, in place of a number: ", text);
     return value;
 }
 
@@ -147,14 +147,14 @@ static void read_root(description_reader *self, const char *element, const XML_C
     foreign_description *of = self->of;
     const char *version = attribute(attributes, "fmiVersion");
     if (strcmp(element, "fmiModelDescription") != 0 || !version) {
-        fail(self, LD_ERR_INPUT, "is no description of an FMU: its root is ", element);
+        fail(self, LD_ERR_INPUT, "is not a description of an FMU: its root is ", element);
         return;
     }
     of->version = version[0] == '2' && version[1] == '.'   ? 2
                   : version[0] == '3' && version[1] == '.' ? 3
                                                            : 0;
     if (!of->version) {
-        fail(self, LD_ERR_INPUT, "is of another version of FMI than 2 and 3: ", version);
+        fail(self, LD_ERR_INPUT, "has an FMI version other than 2 and 3: ", version);
         return;
     }
     of->token =
@@ -180,7 +180,7 @@ static void read_co_simulation(description_reader *self, const XML_Char **attrib
     bool two = of->version == 2;
     self->co_simulation = true;
     if (!identifier || !is_identifier(identifier) || of->identifier) {
-        fail(self, LD_ERR_INPUT, "wants one modelIdentifier that is a name in C, has ",
+        fail(self, LD_ERR_INPUT, "requires one modelIdentifier that is a name in C; found ",
              identifier ? identifier : "none");
         return;
     }
@@ -288,7 +288,7 @@ static void read_kind(description_reader *self, foreign_type type, const XML_Cha
     else if (type <= FOREIGN_ENUMERATION && start)
         variable->has_start = number_of(start, &variable->start);
     if (type == FOREIGN_CLOCK)
-        fail(self, LD_ERR_INPUT, "has a clock, which is not taken in here: ", variable->name);
+        fail(self, LD_ERR_INPUT, "has a clock, which is not supported: ", variable->name);
 }
 
 // The types of FMI 2 by the names of FMI 3; -1: it is none.
@@ -342,7 +342,7 @@ static void read_dimension(description_reader *self, const XML_Char **attributes
     uint32_t number;
     if (!start == !reference || !whole_of(start ? start : reference, &number))
         fail(self, LD_ERR_INPUT,
-             "wants start or valueReference, a whole number, of a dimension of variable ",
+             "requires start or valueReference, a whole number, of a dimension of variable ",
              self->of->variable[self->of->count - 1].name);
     else
         add_dimension(self, reference != NULL, number);
@@ -437,7 +437,7 @@ static void begin_doctype(void *user, const XML_Char *name, const XML_Char *syst
                           const XML_Char *public, int internal)
 {
     (void)system, (void)public, (void)internal;
-    fail(user, LD_ERR_INPUT, "has a DOCTYPE, which no description of an FMU has: ", name);
+    fail(user, LD_ERR_INPUT, "has a DOCTYPE, which is not allowed: ", name);
 }
 
 // ---- when all has been read
@@ -490,7 +490,7 @@ static void size_arrays(description_reader *self)
             array->elements = (uint32_t)elements;
         else
             fail(self, LD_ERR_INPUT,
-                 "the dimensions of an array are 1 to a million elements, not of ", array->name);
+                 "has an array of 0 or more than a million elements: ", array->name);
     }
 }
 
@@ -502,7 +502,7 @@ static ld_status complete(description_reader *self)
         return self->status;
     if (!self->co_simulation)
         return ld_fail(self->error, LD_ERR_INPUT,
-                       "%.300s: is no FMU for co-simulation, which alone can be a base",
+                       "%.300s: is not an FMU for co-simulation, which a base requires",
                        self->name);
     if (of->count)
         qsort(of->variable, of->count, sizeof *of->variable, by_name);
@@ -525,7 +525,7 @@ static ld_status parse(description_reader *self, const char *text, size_t length
     if (!good && !self->status)
         fail(self,
              XML_GetErrorCode(self->parser) == XML_ERROR_NO_MEMORY ? LD_ERR_MEMORY : LD_ERR_INPUT,
-             "is no XML: ", XML_ErrorString(XML_GetErrorCode(self->parser)));
+             "is not valid XML: ", XML_ErrorString(XML_GetErrorCode(self->parser)));
     return self->status ? self->status : complete(self);
 }
 

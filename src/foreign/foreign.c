@@ -28,7 +28,7 @@ static ld_status make_folder(foreign_package *self, ld_error *error)
     int length = snprintf(folder, sizeof folder, "%s/launchdyn-fmu-XXXXXX",
                           temporary && temporary[0] == '/' ? temporary : "/tmp");
     if (length >= (int)sizeof folder || !mkdtemp(folder))
-        return ld_fail(error, LD_ERR_FILE, "%.300s: no folder can be made to unpack it: %s",
+        return ld_fail(error, LD_ERR_FILE, "%.300s: cannot make a folder to unpack it: %s",
                        self->path, strerror(errno));
     self->folder = strdup(folder);
     if (!self->folder)
@@ -59,7 +59,7 @@ static const char *machine_name(int machine)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (names[i].machine == machine)
             return names[i].name;
-    return "another machine";
+    return "an unknown machine";
 }
 
 // Of a binary that is none at all the loader says so; one for another machine it does not find.
@@ -143,7 +143,7 @@ static ld_status ask(foreign_instance *self, foreign_kind kind, double t, const 
                                            expected, &got, error);
     return status || got == expected
                ? status
-               : ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process answers amiss",
+               : ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process gave an invalid answer",
                          self->package->path);
 }
 
@@ -234,7 +234,7 @@ ld_status foreign_step(foreign_instance *self, double t, const foreign_stepping 
     if (status)
         return status;
     if (got != expected)
-        return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process answers amiss",
+        return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process gave an invalid answer",
                        self->package->path);
     memcpy(numbers, answer.number, step->outputs * sizeof *numbers);
     *pieces = (int)answer.pieces;
@@ -286,7 +286,7 @@ ld_status foreign_archive(foreign_instance *self, double t, archive *bytes, ld_e
 {
     if (!self->package->description.saves_state)
         return ld_fail(error, LD_ERR_INPUT,
-                       "%.300s: the state cannot be saved: the FMU does not give its own as bytes",
+                       "%.300s: the state cannot be saved: the FMU cannot serialise its own",
                        self->package->path);
     unsigned char *room = malloc(MOST_STATE);
     if (!room)

@@ -131,7 +131,7 @@ ld_status foreign_process_start(const char *name, double limit, foreign_process 
         return LD_OK;
     }
     ld_status status =
-        ld_fail(error, LD_ERR_MISSING, "%.300s: no process can be started for the FMU: %s", name,
+        ld_fail(error, LD_ERR_MISSING, "%.300s: cannot start a process for the FMU: %s", name,
                 strerror(errno));
     self->pid = 0;
     foreign_process_end(self);
@@ -220,7 +220,7 @@ static ld_status hangs(foreign_process *self, double t, ld_error *error)
 {
     char at[128];
     return ld_fail(error, LD_ERR_NUMERIC,
-                   "%.300s: the FMU did not come back within %g s%s (base.time_limit)", self->name,
+                   "%.300s: the FMU did not return within %g s%s (base.time_limit)", self->name,
                    self->limit, where(self, t, at));
 }
 
@@ -232,8 +232,8 @@ static ld_status refused(foreign_process *self, foreign_result result, double t,
     if (result == FOREIGN_MISSING)
         return ld_fail(error, LD_ERR_INPUT, "%.200s: its binary cannot be loaded%s", self->name,
                        last);
-    const char *what = result == FOREIGN_ENDS      ? "the FMU asks for the end of the simulation"
-                       : result == FOREIGN_NO_STEP ? "the FMU takes no step, however short,"
+    const char *what = result == FOREIGN_ENDS      ? "the FMU requests the end of the simulation"
+                       : result == FOREIGN_NO_STEP ? "the FMU refuses every step, however short,"
                                                    : "the FMU reports an error";
     return ld_fail(error, LD_ERR_NUMERIC, "%.200s: %s%s%s", self->name, what, at, last);
 }
@@ -322,7 +322,7 @@ ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t
         return hangs(self, t, error);
     if (head.result != FOREIGN_DONE)
         return refused(self, (foreign_result)head.result, t, error);
-    return self->lost ? ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's state takes %zu bytes",
+    return self->lost ? ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's state requires %zu bytes",
                                 self->name, head.size)
                       : LD_OK;
 }

@@ -31,7 +31,7 @@ typedef struct entry {
 
 static ld_status damaged(const unpacking *self)
 {
-    return ld_fail(self->error, LD_ERR_INPUT, "%.300s: is no archive (zip), or a damaged one",
+    return ld_fail(self->error, LD_ERR_INPUT, "%.300s: is not a zip archive, or is damaged",
                    self->path);
 }
 
@@ -54,7 +54,7 @@ static bool is_plain(const char *part, size_t length)
 static const char *wrong_name(const char *name)
 {
     if (name[0] == '/')
-        return "has a name that begins at the root";
+        return "has an absolute path";
     if (strchr(name, '\\'))
         return "has a backslash in its name";
     for (const char *c = name; *c; c++)
@@ -63,7 +63,7 @@ static const char *wrong_name(const char *name)
     for (const char *part = name; *part;) {
         size_t length = strcspn(part, "/");
         if (!is_plain(part, length))
-            return "has a name that leads out of its place";
+            return "has a path that leaves the archive";
         part += length;
         part += *part == '/';
     }
@@ -86,7 +86,7 @@ static const char *wrong_entry(const entry *one)
     if (one->about.flag & ENCRYPTED)
         return "is encrypted";
     if (one->about.compression_method != STORED && one->about.compression_method != DEFLATED)
-        return "is packed in a way that is not known here";
+        return "uses an unknown compression";
     return NULL;
 }
 
@@ -112,12 +112,12 @@ static ld_status count(unpacking *self, const entry *one)
     uint64_t size = one->about.uncompressed_size;
     if (size > FOREIGN_MOST_BYTES - self->unpacked)
         return ld_fail(self->error, LD_ERR_INPUT,
-                       "%.300s: would take more than %llu MB unpacked, which no FMU should",
+                       "%.300s: takes more than %llu MB unpacked, the largest size allowed",
                        self->path, (unsigned long long)(FOREIGN_MOST_BYTES >> 20));
     self->unpacked += size;
     if (self->unpacked > allowance + FOREIGN_MOST_RATIO * self->packed)
         return ld_fail(self->error, LD_ERR_INPUT,
-                       "%.300s: would grow to more than %d times its size, which no FMU should",
+                       "%.300s: grows to more than %d times its size, the largest factor allowed",
                        self->path, FOREIGN_MOST_RATIO);
     return LD_OK;
 }
@@ -170,14 +170,14 @@ static ld_status unpack_file(const unpacking *self, const entry *one)
     if (length < 0 || length >= LONGEST_PATH)
         return refuse(self, one->name, "has a name that is too long");
     if (!make_way(path, strlen(self->folder) + 1))
-        return errno == ENOTDIR ? refuse(self, one->name, "lies in a file")
+        return errno == ENOTDIR ? refuse(self, one->name, "has a path through a file")
                                 : cannot_write(self, one->name);
     if (path[length - 1] == '/')
         return LD_OK;
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0700);
     if (file < 0)
-        return errno == EEXIST    ? refuse(self, one->name, "is there twice")
-               : errno == ENOTDIR ? refuse(self, one->name, "lies in a file")
+        return errno == EEXIST    ? refuse(self, one->name, "occurs twice")
+               : errno == ENOTDIR ? refuse(self, one->name, "has a path through a file")
                                   : cannot_write(self, one->name);
     ld_status status = copy_bytes(self, one, file);
     if (close(file) && !status)
@@ -205,7 +205,7 @@ static ld_status unpack_all(unpacking *self)
     for (int i = 0; next == UNZ_OK && !status; i++) {
         status = i < FOREIGN_MOST_ENTRIES
                      ? unpack_entry(self)
-                     : ld_fail(self->error, LD_ERR_INPUT, "%.300s: holds more than %d entries",
+                     : ld_fail(self->error, LD_ERR_INPUT, "%.300s: has more than %d entries",
                                self->path, FOREIGN_MOST_ENTRIES);
         next = unzGoToNextFile(self->zip);
     }
@@ -219,7 +219,7 @@ ld_status foreign_unpack(const char *path, const char *folder, ld_error *error)
         return ld_fail(error, text_file_status(errno), "%.300s: cannot be read: %s", path,
                        strerror(errno));
     if (!S_ISREG(about.st_mode))
-        return ld_fail(error, LD_ERR_INPUT, "%.300s: is no file", path);
+        return ld_fail(error, LD_ERR_INPUT, "%.300s: is not a file", path);
     unpacking self = {.path = path,
                       .folder = folder,
                       .packed = (uint64_t)about.st_size,

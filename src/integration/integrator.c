@@ -319,9 +319,9 @@ static integrator_outcome fail(integrator *self, int flag, ld_error *error)
     else if (flag == ARK_MEM_FAIL) // the first step takes the rest of its memory
         ld_fail(error, self->failure, "no memory for the integrator");
     else if (flag == ARK_ERR_FAILURE || flag == ARK_CONV_FAILURE || flag == ARK_TOO_CLOSE)
-        ld_fail(error, self->failure, "the step size fell to nothing at t = %.9g s", self->t);
+        ld_fail(error, self->failure, "the step size fell to 0 at t = %.9g s", self->t);
     else
-        ld_fail(error, self->failure, "the integrator gave up at t = %.9g s (code %d)", self->t,
+        ld_fail(error, self->failure, "the integrator failed at t = %.9g s (code %d)", self->t,
                 flag);
     return INTEGRATOR_FAILED;
 }

@@ -23,21 +23,20 @@ ld_status saved_state_check(const saved_state *self, const ld_model *model, cons
     archive loaded = archive_load(bytes, size);
     archive_expect(&loaded, self->magic);
     if (loaded.failed)
-        return ld_fail(error, LD_ERR_INPUT, "this is no saved %s", self->name);
+        return ld_fail(error, LD_ERR_INPUT, "this is not a saved %s", self->name);
     archive_expect(&loaded, self->form);
     if (loaded.failed)
         return ld_fail(error, LD_ERR_INPUT, "the %s was saved by another version of launchdyn",
                        self->name);
     archive_expect(&loaded, (int64_t)model_digest(model));
     if (loaded.failed)
-        return ld_fail(error, LD_ERR_INPUT, "the %s that was saved is one of another model",
-                       self->name);
+        return ld_fail(error, LD_ERR_INPUT, "the saved %s belongs to another model", self->name);
     archive_expect(&loaded, (int64_t)size);
     if (!loaded.failed) {
         loaded.at = size - 8;
         saved_state_sum(&loaded);
     }
     return loaded.failed
-               ? ld_fail(error, LD_ERR_INPUT, "the saved %s is cut off or damaged", self->name)
+               ? ld_fail(error, LD_ERR_INPUT, "the saved %s is truncated or damaged", self->name)
                : LD_OK;
 }

@@ -21,12 +21,12 @@ ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_er
     if (!are_finite(given->position, 3) || !are_finite(given->quaternion, 4) ||
         !are_finite(given->velocity, 3) || !are_finite(given->rate, 3))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the base is told a place or a motion that is not finite");
+                       "the base received a position or a motion that is not finite");
     quat q = q_from(given->quaternion);
     double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!(fabs(length - 1) <= 1e-6))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the base is told a quaternion of length %.9g in place of 1", length);
+                       "the base received a quaternion of length %.9g, expected 1", length);
     *frame = (base_frame){
         .r = v3_from(given->position),
         .v = v3_from(given->velocity),
@@ -42,7 +42,7 @@ ld_status launch_base_listens(const base_system *base, ld_error *error)
     if (base->kind->tell)
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT,
-                   "the base is told where it is, which goes with base.kind: external alone");
+                   "the base's motion can be set with base.kind: external only");
 }
 
 ld_status launch_begin_base(ld_run *run)

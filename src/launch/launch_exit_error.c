@@ -247,8 +247,8 @@ void exit_error_note(ld_run *run)
             worst = &run->summary.rocket[i];
     if (worst->exit_error.relative > EXIT_ERROR_NOTED)
         summary_note(&run->summary,
-                     "the rates at the exit of %s %d may be off by %.2g %%: errors of the "
-                     "steps grow in its guide; with a smaller run.tolerance they are smaller",
+                     "the exit rates of %s %d may be off by %.2g %%: integration errors grow in "
+                     "its guide; reduce run.tolerance",
                      model_guide_word(run->launch.model), worst->tube,
                      100 * worst->exit_error.relative);
 }

@@ -18,8 +18,8 @@ ld_status launch_check_tube(ld_run *run, double t, const double *y)
         double sag = hypot(at.P.y, at.P.z);
         if (sag > 0.2 * length || at.A.a[0][0] < 0.8)
             return ld_fail(&run->error, LD_ERR_NUMERIC,
-                           "the tube bends beyond what small deflections allow at t = %.6g s: "
-                           "%.3g m from its rear end it is %.3g m off its axis",
+                           "the tube bends beyond small deflections at t = %.6g s: %.3g m from its "
+                           "rear end it is %.3g m off its axis",
                            t, x, sag);
     }
     return LD_OK;
@@ -46,11 +46,10 @@ static ld_status check_progress(ld_run *run, double t, const double *y)
     if (since < self->model->run.stuck_time)
         return LD_OK;
     if (self->phase.locked)
-        return ld_fail(
-            &run->error, LD_ERR_LAUNCH,
-            "the lock never let go: it carried at most %.6g N of the release force %.6g N "
-            "by %.4g s after ignition",
-            run->greatest_lock_force, rocket->lock.release_force, since);
+        return ld_fail(&run->error, LD_ERR_LAUNCH,
+                       "the lock never released: it carried at most %.6g N of the release force "
+                       "%.6g N by %.4g s after ignition",
+                       run->greatest_lock_force, rocket->lock.release_force, since);
     return ld_fail(
         &run->error, LD_ERR_LAUNCH,
         "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
@@ -67,8 +66,8 @@ static ld_status check_next(ld_run *run, double t)
         t < self->model->firing[next].at)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_LAUNCH,
-                   "firing %d: at its ignition, t = %.6g s, the rocket before is still in its "
-                   "tube; launches that overlap are not simulated",
+                   "firing %d: at its ignition, t = %.6g s, the previous rocket is still in its "
+                   "tube; overlapping launches are not simulated",
                    next + 1, t);
 }
 
@@ -92,8 +91,8 @@ static ld_status check_steps(ld_run *run, double t)
     const int64_t most = 20000;
     if (++run->steps_since_progress > most)
         return ld_fail(&run->error, LD_ERR_NUMERIC,
-                       "the steps became too short to go on: more than %lld within a millisecond, "
-                       "up to t = %.9g s",
+                       "the steps became too short to continue: more than %lld steps within a "
+                       "millisecond, up to t = %.9g s",
                        (long long)most, t);
     int64_t steps = propagator_most_steps(run->propagator);
     double spent = t - run->t_start;
@@ -102,8 +101,8 @@ static ld_status check_steps(ld_run *run, double t)
     if (spent < 1e-3 || spent >= least * (double)steps)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_NUMERIC,
-                   "the steps are too short to go on: %lld for %.6g s, up to t = %.9g s; is a "
-                   "contact, a damper or a friction far too hard?",
+                   "the steps are too short to continue: %lld steps for %.6g s, up to t = %.9g s; "
+                   "check for a contact, damper or friction that is far too stiff",
                    (long long)steps, spent, t);
 }
 
@@ -120,8 +119,8 @@ static ld_status check_air(ld_run *run, double t, const double *y)
     if (!out || out->launching.air_mach <= last)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_LAUNCH,
-                   "%s: ends at Mach %.4g, beyond which the rocket goes at "
-                   "t = %.4f s, still on its guide (beyond_table: hold keeps the last values)",
+                   "%s: ends at Mach %.4g; the rocket exceeds it at t = %.4f s, still on its guide "
+                   "(`beyond_table: hold` keeps the last values)",
                    self->air->aerodynamics.last_of, last, t);
 }
 

@@ -6,7 +6,8 @@
 #include "model/model.h"
 #include "state/history.h"
 
-_Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS, "rows of a launch have no room");
+_Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS,
+               "the rows of a launch exceed their buffer");
 
 void launch_begin_measures(ld_run *run, double t)
 {

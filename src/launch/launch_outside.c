@@ -12,19 +12,19 @@
 #include "state/evaluation.h"
 #include "state/stepping/outside_steps.h"
 
-_Static_assert((int)EVENTS_MOST <= (int)LD_MAX_STATES, "more indicators than told");
+_Static_assert((int)EVENTS_MOST <= (int)LD_MAX_STATES, "more indicators than reported");
 
 ld_status launch_outside_check(const ld_simulation *simulation, ld_error *error)
 {
     const launcher_system *launcher = &simulation->launcher;
     if (base_as_vehicle(&launcher->base) && simulation->model->run.coupling_step > 0)
         return ld_fail(error, LD_ERR_MISSING,
-                       "run.coupling: subsystems that go apart have integrators of their own, and "
-                       "are none for model exchange");
+                       "run.coupling: partitioned subsystems have their own integrators; model "
+                       "exchange requires monolithic integration");
     if (launcher->base.kind->tell && launcher->launching.supports.clamps)
         return ld_fail(error, LD_ERR_MISSING,
-                       "tubes.supports.clamped: a clamp passes on its base's acceleration, which a "
-                       "base that is told where it is does not have in model exchange");
+                       "tubes.supports.clamped: a clamp requires its base's acceleration, which an "
+                       "externally driven base does not have in model exchange");
     return LD_OK;
 }
 
@@ -147,8 +147,8 @@ static ld_status meet_instant(ld_run *run, double next, ld_error *error)
     double t = run->t, last = propagator_previous_time(run->propagator), size = fmax(1, fabs(t));
     if (t < last - late * size || t > next + late * size)
         return ld_fail(error, LD_ERR_INPUT,
-                       "a step ends at %.17g s, the one before at %.17g s, and the next event was "
-                       "to be met at %.17g s",
+                       "found a step that ends at %.17g s after one that ended at %.17g s; "
+                       "expected at most the next event, at %.17g s",
                        t, last, next);
     t = fmax(t, last);
     if (t >= next - rounding * size)

@@ -107,7 +107,7 @@ outside_quantity launch_outside_indicator(const ld_run *run, int i)
     int surfaces = run->launch.launcher.launching.surfaces.count, index = one->index;
     switch (one->kind) {
     case EVENT_RELEASE:
-        return quantity_as("", "", "The lock lets go where it falls through zero", "release");
+        return quantity_as("", "", "The lock releases where it falls through zero", "release");
     case EVENT_EXIT:
         return quantity_as("", "", "The adaptor passes the tip where it falls through zero",
                            "exit.%d", index + 1);

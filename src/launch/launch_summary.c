@@ -223,9 +223,9 @@ static void note_rests(ld_summary *summary)
     const double *taken = summary->equilibrium.taken, *other = summary->equilibrium.other;
     if (summary->equilibrium.rests_elsewhere)
         summary_note(summary,
-                     "the rocket has two rests in its guide: the run begins with its rear at "
-                     "y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; the other "
-                     "is %.3f, %.3f mm, %.3f, %.3f mrad",
+                     "the rocket has two equilibria in its guide: the run begins with its rear at "
+                     "y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; the other is "
+                     "%.3f, %.3f mm, %.3f, %.3f mrad",
                      printed_milli(taken[0]), printed_milli(taken[1]), printed_milli(taken[2]),
                      printed_milli(taken[3]), printed_milli(other[0]), printed_milli(other[1]),
                      printed_milli(other[2]), printed_milli(other[3]));
@@ -239,8 +239,8 @@ static void note_measures(ld_run *run)
         for (int k = 0; k < model->measure_count; k++)
             if (isnan(run->summary.rocket[i].measure[k])) {
                 summary_note(&run->summary,
-                             "measure.%s of tube %d has no value: its window did not come, or "
-                             "%s is not there in all of it",
+                             "measure.%s of tube %d has no value: its window did not occur, or %s "
+                             "is missing in a part of it",
                              model->measure[k].name, run->summary.rocket[i].tube,
                              model->measure[k].of);
                 return;
@@ -285,13 +285,13 @@ void launch_summarise(ld_run *run)
     note_formulation(self, summary);
     for (int i = 0; i < summary->rocket_count; i++)
         if (summary->rocket[i].t_release < 0)
-            summary_note(summary, "the lock of tube %d let go %.4g s before its ignition",
+            summary_note(summary, "the lock of tube %d released %.4g s before its ignition",
                          summary->rocket[i].tube, -summary->rocket[i].t_release);
     note_vertical(summary);
     note_measures(run);
     exit_error_note(run);
     note_rests(summary);
     if (self->system->growing.real > 0)
-        summary_note(summary, "about the equilibrium a motion grows by %.3g 1/s: %s",
+        summary_note(summary, "a motion about the equilibrium grows by %.3g 1/s: %s",
                      self->system->growing.real, self->system->growing.shape);
 }

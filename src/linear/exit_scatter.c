@@ -82,7 +82,7 @@ static ld_status find_figure(const quantity_things *things, const char *name, qu
     char near[QUANTITY_NAME];
     *found = study_result_find(things, name);
     if (found->row && found->group->where.type != QUANTITY_NONE)
-        return ld_fail(error, LD_ERR_INPUT, "\"%s\" comes of the flight: it is none of the exit",
+        return ld_fail(error, LD_ERR_INPUT, "\"%s\" is a result of the flight, not of the exit",
                        name);
     if (found->row)
         return LD_OK;
@@ -441,7 +441,8 @@ ld_status ld_response_exit(ld_response *response, double speed, int draws, const
 {
     ld_status status = response_check_road(response, speed, error);
     if (!status && (draws < 0 || draws == 1))
-        status = ld_fail(error, LD_ERR_INPUT, "%d draws: there are 2 or more, or 0: none", draws);
+        status =
+            ld_fail(error, LD_ERR_INPUT, "found %d draws, expected 0 (none) or at least 2", draws);
     if (status)
         return status;
     exit_bench *self = aligned_alloc(64, (sizeof *self + 63) / 64 * 64);

@@ -241,11 +241,10 @@ static ld_status find_hinge(ld_loop *self, const ld_model *model, const char *na
         ++*hinge;
     if (*hinge == 2)
         return ld_fail(error, LD_ERR_INPUT, "unknown hinge \"%s\"%s%s%s", name,
-                       best.name ? ", did you mean \"" : ": it is azimuth or elevation",
+                       best.name ? ", did you mean \"" : "; expected azimuth or elevation",
                        best.name ? best.name : "", best.name ? "\"?" : "");
     if (!model_has_vehicle(model))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "there is no loop: the base is no vehicle, and has no hinges");
+        return ld_fail(error, LD_ERR_INPUT, "there is no loop: the base is not a vehicle");
     if (turret[*hinge]->lock.present)
         return ld_fail(error, LD_ERR_INPUT,
                        "platform.%s.lock: there is no loop: the hinge is locked", name);
@@ -289,8 +288,8 @@ static ld_status check_lateness(const ld_loop *self, const char *hinge, ld_error
     if (self->margins.delay > 0)
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT,
-                   "platform.%s.stabiliser: unstable: its delay and half its period make the loop "
-                   "late by %.3g ms, and it bears %.3g ms",
+                   "platform.%s.stabiliser: unstable: delay and half the period are %.3g ms, the "
+                   "loop's delay margin is %.3g ms",
                    hinge, 1e3 * self->late, 1e3 * self->lateness);
 }
 

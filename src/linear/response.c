@@ -28,9 +28,9 @@ typedef struct excitation {
 // Those of the road, in front of the others.
 enum { ROAD_OF_BOTH, ROAD_OF_LEFT, ROAD_OF_RIGHT, ROAD_INPUTS };
 static const ld_column road_inputs[ROAD_INPUTS] = {
-    {"road", "m", "height of the road, both tracks, as it is under the chassis' mass centre"},
-    {"road.left", "m", "height of its left track, as it is there"},
-    {"road.right", "m", "height of its right track, as it is there"},
+    {"road", "m", "height of the road under the chassis' mass centre, both tracks"},
+    {"road.left", "m", "height of its left track there"},
+    {"road.right", "m", "height of its right track there"},
 };
 
 struct ld_response {
@@ -178,8 +178,10 @@ static ld_status set_speeds(ld_response *self, double slowest, double fastest, l
     self->speed[0] = isnan(slowest) ? own : slowest;
     self->speed[1] = isnan(fastest) ? own : fastest;
     if (!(self->speed[0] >= 0 && self->speed[0] <= self->speed[1] && self->speed[1] <= 1000))
-        return ld_fail(error, LD_ERR_INPUT, "%g m/s to %g m/s is no range of marching speeds",
-                       self->speed[0], self->speed[1]);
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "found speeds from %g m/s to %g m/s, expected a rising range from 0 to 1000 m/s",
+            self->speed[0], self->speed[1]);
     // what stands has other tyres than what rolls
     if (self->speed[0] == 0)
         self->speed[0] = 0.5 * self->speed[1];
@@ -213,7 +215,8 @@ ld_status response_create(const ld_model *model, double slowest, double fastest,
 {
     *response = NULL;
     if (!model_has_launcher(model))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no launcher, and no response");
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a scenario of flight only has no launcher and no response");
     ld_response *self = calloc(1, sizeof *self);
     if (!self)
         return no_memory(error);
@@ -433,12 +436,12 @@ static ld_status answer(ld_response *self, const excitation *by, int count, doub
     int n = self->now.states;
     double omega = TWO_PI * frequency;
     if (!(frequency > 0 && isfinite(frequency)))
-        return ld_fail(error, LD_ERR_INPUT, "%g Hz is no frequency: it must be above 0", frequency);
+        return ld_fail(error, LD_ERR_INPUT, "found %g Hz, expected a frequency above 0", frequency);
     for (int i = 0; i < count; i++)
         excite(self, &by[i], omega, z + 2 * n * i);
     if (hessenberg_solve(&self->solver, omega, count, z))
-        return ld_fail(error, LD_ERR_NUMERIC, "at %g Hz an undamped motion answers without bounds",
-                       frequency);
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "at %g Hz the response of an undamped motion is unbounded", frequency);
     for (int i = 0; i < count; i++)
         tell(self, &by[i], omega, z + 2 * n * i, y + self->chosen_count * i);
     return LD_OK;
@@ -458,11 +461,10 @@ static ld_status make_room(const ld_response *self, double **z, ld_phasor **y, l
 ld_status response_check_road(const ld_response *self, double speed, ld_error *error)
 {
     if (!model_has_vehicle(self->model))
-        return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is no vehicle");
-    return speed > 0 ? LD_OK
-                     : ld_fail(error, LD_ERR_INPUT,
-                               "the road does nothing to a vehicle that stands: it takes a speed "
-                               "above 0");
+        return ld_fail(error, LD_ERR_INPUT, "there is no road: the base is not a vehicle");
+    return speed > 0
+               ? LD_OK
+               : ld_fail(error, LD_ERR_INPUT, "the response to the road requires a speed above 0");
 }
 
 // What an input is among those of the plant.
@@ -757,8 +759,8 @@ static ld_status check_density(const double *frequency, const double *density, s
                (i == 0 || frequency[i] > frequency[i - 1]);
     return good ? LD_OK
                 : ld_fail(error, LD_ERR_INPUT,
-                          "a spectral density wants two points or more, their frequencies rising "
-                          "from 0 or above, none of its values below 0");
+                          "a spectral density requires at least two points, with rising "
+                          "frequencies and no value below 0");
 }
 
 // What the columns' mean squares have of the frequencies around one; y: room for them.

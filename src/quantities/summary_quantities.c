@@ -34,7 +34,7 @@ static const quantity ignition[] = {
     {"t_ignition", "s", "ignition, on the run's clock", ROCKET(t_ignition), KEPT},
 };
 static const quantity instants[] = {
-    {"t_release", "s", "the lock lets go", ROCKET(t_release), KEPT, LINE("lock release", "ms", MILLI, 4)},
+    {"t_release", "s", "the lock releases", ROCKET(t_release), KEPT, LINE("lock release", "ms", MILLI, 4)},
     {"t_front", "s", "the front adaptor (the one farthest forward) passes the tip", ROCKET(t_front), KEPT},
     {"t_middle", "s", "the middle adaptor (of exactly three) passes the tip", ROCKET(t_middle), KEPT},
     {"t_rear", "s", "the rear adaptor passes the tip: the rocket has left", ROCKET(t_rear), KEPT},
@@ -43,7 +43,7 @@ static const quantity exits[] = {
     {"t_exit.%s", "s", "adaptor %s passes the tip", ADAPTOR(t_exit), LINE("%s adaptor leaves", "ms", MILLI, 4)},
 };
 static const quantity at_exit[] = {
-    {"muzzle_speed", "m/s", "s_dot at t_rear, relative to the tube", ROCKET(muzzle_speed), KEPT, LINE("muzzle speed", "m/s", 1, 4)},
+    {"muzzle_speed", "m/s", "s_dot at t_rear, relative to the tube", ROCKET(muzzle_speed), KEPT, LINE("exit speed", "m/s", 1, 4)},
     {"inertial_speed", "m/s", "speed of the rear adaptor's centre in I at t_rear", ROCKET(inertial_speed), KEPT, LINE("inertial speed", "m/s", 1, 4)},
     {"spin_rate", "rad/s", "x component of the rate of B against I at t_rear, in B", ROCKET(spin_rate), KEPT, LINE("spin rate", "rad/s", 1, 4)},
 };
@@ -71,9 +71,9 @@ static const quantity tip_off[] = {
 };
 static const quantity ground[] = {
     {"pitch", "rad", "pitch of the rocket's axis in I at t_rear", ROCKET(pitch), KEPT, LINE("ground pitch, yaw", "deg", DEGREES, 5)},
-    {"yaw", "rad", "yaw of the rocket's axis in I at t_rear, positive to the left; near the vertical it says nothing", ROCKET(yaw), KEPT, BESIDE(DEGREES)},
+    {"yaw", "rad", "yaw of the rocket's axis in I at t_rear, positive to the left; not meaningful near the vertical", ROCKET(yaw), KEPT, BESIDE(DEGREES)},
     {"pitch_rate", "rad/s", "rate of pitch", ROCKET(pitch_rate), KEPT, LINE_OFF("ground pitch, yaw rate", "mrad/s", MILLI, 3, yaw_rate)},
-    {"yaw_rate", "rad/s", "rate of yaw; near the vertical it says nothing", ROCKET(yaw_rate), KEPT, BESIDE(MILLI)},
+    {"yaw_rate", "rad/s", "rate of yaw; not meaningful near the vertical", ROCKET(yaw_rate), KEPT, BESIDE(MILLI)},
 };
 static const quantity state_at_exit[] = {
     {"exit.x", "m", "rear adaptor's centre in I at t_rear", ROCKET(exit.position[0]), "exit.position[]", KEPT},
@@ -111,8 +111,8 @@ static const quantity tip[] = {
     {"tip.yaw_rate", "rad/s", "rate of tip.yaw", ROCKET(tip.yaw_rate), KEPT, BESIDE(MILLI)},
 };
 static const quantity exit_error[] = {
-    {"exit_error.rates", "rad/s", "how far the steps' errors may leave each of the rates of tip_off and since_ignition off", ROCKET(exit_error.rates), KEPT},
-    {"exit_error.yaw_rate", "rad/s", "the same of yaw_rate, which near the vertical is the larger one", ROCKET(exit_error.yaw_rate)},
+    {"exit_error.rates", "rad/s", "possible integration error of each rate of tip_off and since_ignition", ROCKET(exit_error.rates), KEPT},
+    {"exit_error.yaw_rate", "rad/s", "the same of yaw_rate, which is larger near the vertical", ROCKET(exit_error.yaw_rate)},
     {"exit_error.relative", "1", "exit_error.rates over the magnitude of both tip_off rates, or over 1 mrad/s where that is less", ROCKET(exit_error.relative), KEPT},
 };
 static const quantity contact_peaks[] = {
@@ -125,7 +125,7 @@ static const quantity pressure_peak[] = {
     {"max_pressure", "Pa", "largest pressure behind the rocket less that before it", ROCKET(max_pressure), KEPT, .from_zero = true, LINE("largest pressure", "MPa", 1e-6, 4)},
 };
 static const quantity recoils[] = {
-    {"max_recoil.%s", "m", "recoil slide %s: largest way back from battery, until the next tube takes its place", ADAPTOR(max_recoil), KEPT, .from_zero = true, LINE("largest recoil, slide %s", "mm", MILLI, 3)},
+    {"max_recoil.%s", "m", "recoil slide %s: largest travel back from battery, until the change of tubes", ADAPTOR(max_recoil), KEPT, .from_zero = true, LINE("largest recoil, slide %s", "mm", MILLI, 3)},
 };
 #define CARRIED(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, station, member)
 static const quantity station_peaks[] = {
@@ -141,19 +141,19 @@ static const quantity support_peaks[] = {
     {"support.%s.max_moment", "N.m", "support %s: largest magnitude of its moment", BORNE(moment), KEPT, LINE("moment of support %s", "N.m", 1, 2)},
 };
 static const quantity measures[] = {
-    {"measure.%s", NULL, "what the scenario's measure %s takes; unit of the column that it is of", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
+    {"measure.%s", NULL, "value of measure %s, in the unit of its column", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
 };
 #define HELD(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, hinge, member)
 static const quantity held[] = {
     {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT, LINE("%s error", "mrad, rms", MILLI, 4)},
     {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT, LINE("%s torque", "N.m, rms and peak", 1, 1)},
     {"%s.torque_peak", "N.m", "%s: its largest magnitude", HELD(torque_peak), KEPT, .from_zero = true, BESIDE(1)},
-    {"%s.saturated", "s", "%s: how long the stabiliser asked for its torque limit", HELD(saturated), KEPT, .from_zero = true, NONZERO("%s saturated", "ms", MILLI, 3)},
+    {"%s.saturated", "s", "%s: time at the torque limit", HELD(saturated), KEPT, .from_zero = true, NONZERO("%s saturated", "ms", MILLI, 3)},
     {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT, LINE("%s power", "W, mean and peak", 1, 1)},
     {"%s.power_peak", "W", "%s: its largest value", HELD(power_peak), KEPT, .from_zero = true, BESIDE(1)},
 };
 static const quantity change[] = {
-    {"energy_dropped", "J", "kinetic energy that went when its tube took the place of the one before; 0 of the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
+    {"energy_dropped", "J", "kinetic energy lost at the change to its tube; 0 for the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
 };
 static const quantity flight[] = {
     {"stability_margin", "1", "at the flight's start (the exit): mass centre ahead of the centre of pressure, in reference diameters", ROCKET(flight.stability_margin), "flight.stability_margin", KEPT, LINE("stability margin", "calibres", 1, 3)},
@@ -229,13 +229,13 @@ static const quantity_group rocket_groups[] = {
     {.title = "state at the exit, in which the flight begins", .launch = true, QUANTITY_ROWS(state_at_exit)},
     {.title = "rocket against the tube's section at t_rear", .launch = true, QUANTITY_ROWS(relative)},
     {.title = "tip against the undeformed tube at t_rear", .launch = true, .block = SHOWN_TIP, QUANTITY_ROWS(tip)},
-    {.title = "what the steps' errors leave of the rates at t_rear; null where that is not estimated", .launch = true, QUANTITY_ROWS(exit_error)},
+    {.title = "integration error of the rates at t_rear; null where not estimated", .launch = true, QUANTITY_ROWS(exit_error)},
     {.title = "greatest contact forces", .each = EACH_ADAPTOR, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(contact_peaks)},
     {.title = "greatest slot force", .each = EACH_SLOT, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(slot_peak)},
     {.title = "greatest pressure", .each = EACH_PRESSURE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(pressure_peak)},
     {.title = "greatest recoil", .each = EACH_SLIDE, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(recoils)},
-    {.title = "largest of what the tube carried at a station", .each = EACH_STATION, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(station_peaks)},
-    {.title = "largest of what a support put on the tube", .each = EACH_SUPPORT, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(support_peaks)},
+    {.title = "largest section loads at a station", .each = EACH_STATION, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(station_peaks)},
+    {.title = "largest loads of a support", .each = EACH_SUPPORT, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(support_peaks)},
     {.title = "of each measure of the scenario", .each = EACH_MEASURE, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
     {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(held)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
@@ -248,7 +248,7 @@ static const quantity_group rocket_groups[] = {
 // ---- the run
 
 static const quantity resting_forces[] = {
-    {"equilibrium.lock_force", "N", "carried by the lock, along +x", RUN(equilibrium.lock_force), LINE("lock carries", "N, forward positive", 1, 2)},
+    {"equilibrium.lock_force", "N", "carried by the lock, along +x", RUN(equilibrium.lock_force), LINE("lock force", "N, forward positive", 1, 2)},
     {"equilibrium.breech_force", "N", "of the breech on the rocket, along +x", RUN(equilibrium.breech_force), NONZERO("breech force", "N", 1, 2)},
 };
 static const quantity resting_knob[] = {
@@ -265,9 +265,9 @@ static const quantity resting_tube[] = {
 #define WHEEL(member) .at = QUANTITY_OF_EACH(ld_summary, equilibrium.wheel, member)
 static const quantity resting_wheels[] = {
     {"equilibrium.wheels.%s.tyre_force", "N", "wheel %s: vertical tyre force", WHEEL(tyre_force), "equilibrium.wheels[].%s.tyre_force"},
-    {"equilibrium.wheels.%s.suspension.x", "m", "wheel %s: from its place with unloaded suspension, chassis axes", WHEEL(suspension[0]), "equilibrium.wheels[].%s.suspension[]"},
-    {"equilibrium.wheels.%s.suspension.y", "m", "wheel %s: from its place with unloaded suspension, chassis axes", WHEEL(suspension[1]), "equilibrium.wheels[].%s.suspension[]"},
-    {"equilibrium.wheels.%s.suspension.z", "m", "wheel %s: from its place with unloaded suspension, chassis axes", WHEEL(suspension[2]), "equilibrium.wheels[].%s.suspension[]"},
+    {"equilibrium.wheels.%s.suspension.x", "m", "wheel %s: displacement from unloaded suspension, chassis axes", WHEEL(suspension[0]), "equilibrium.wheels[].%s.suspension[]"},
+    {"equilibrium.wheels.%s.suspension.y", "m", "wheel %s: displacement from unloaded suspension, chassis axes", WHEEL(suspension[1]), "equilibrium.wheels[].%s.suspension[]"},
+    {"equilibrium.wheels.%s.suspension.z", "m", "wheel %s: displacement from unloaded suspension, chassis axes", WHEEL(suspension[2]), "equilibrium.wheels[].%s.suspension[]"},
     {"equilibrium.wheels.%s.tyre_deflection", "m", "wheel %s: tyre deflection", WHEEL(tyre_deflection), "equilibrium.wheels[].%s.tyre_deflection"},
 };
 static const quantity resting_chassis[] = {
@@ -298,7 +298,7 @@ static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
-    {"energy.residual", "J", "what the energy balance misses", RUN(energy.residual)},
+    {"energy.residual", "J", "residual of the energy balance", RUN(energy.residual)},
     {"energy.residual_relative", "1", "the same over the largest single work", RUN(energy.residual_relative)},
 };
 static const quantity cost[] = {
@@ -320,7 +320,7 @@ static const quantity_group run_groups[] = {
     {.title = "energy at the end", .launch = true, QUANTITY_ROWS(energies)},
     {.title = "works since the start", .launch = true, QUANTITY_ROWS(driving_works)},
     {.title = "works of a slot", .each = EACH_SLOT, .launch = true, QUANTITY_ROWS(slot_works)},
-    {.title = "works of what holds the tube, and of lost mass", .launch = true, QUANTITY_ROWS(holding_works)},
+    {.title = "works of lock, supports, damping, base and lost mass", .launch = true, QUANTITY_ROWS(holding_works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, .launch = true, QUANTITY_ROWS(crossflow_works)},
     {.title = "work of the air on the rocket on an open guide", .each = EACH_OPEN_AIR, .launch = true, QUANTITY_ROWS(open_air_works)},
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, .launch = true, QUANTITY_ROWS(pressure_works)},

@@ -44,8 +44,9 @@ static ld_status read_history(report_source *source, const char *folder, ld_erro
             report_take_note(source->report, "There is no history.h5: no plots.");
             return LD_OK;
         }
-        report_take_note(source->report, "The run did not come to its end: the plots are of "
-                                         "history.h5.part, up to its last block.");
+        report_take_note(
+            source->report,
+            "The run did not reach its end: the plots show history.h5.part, up to its last block.");
     }
     ld_status status = read_history_file(source, path, error);
     if (status == LD_ERR_INPUT)
@@ -62,9 +63,8 @@ static void take_summary(report_source *source, manifest *found)
     found->text = NULL;
     const char *doubt = manifest_doubt(found);
     if (doubt)
-        report_take_note(
-            source->report, "%s: %s.",
-            source->summary ? "Whether the files are whole is not known" : "No summary", doubt);
+        report_take_note(source->report, "%s: %s.",
+                         source->summary ? "The files cannot be verified" : "No summary", doubt);
 }
 
 // Notes which files are damaged, of which the history is not to be read. LD_ERR_INPUT with the
@@ -148,7 +148,7 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
         return ld_fail(error, LD_ERR_INPUT, "the name of the folder or the report is too long");
     struct stat about;
     if (stat(folder, &about) == 0 && !S_ISDIR(about.st_mode))
-        return ld_fail(error, LD_ERR_INPUT, "%.400s is no folder", folder);
+        return ld_fail(error, LD_ERR_INPUT, "%.400s is not a folder", folder);
     report_source *source = calloc(1, sizeof *source);
     if (!source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");

@@ -137,7 +137,7 @@ ld_status report_write_page(FILE *page, const report_source *source, const char 
 {
     report_begin_page(page, &run_bundle, title_of(source),
                       "This report draws its plots with JavaScript; summary.json and history.h5 "
-                      "hold the same numbers.");
+                      "have the same numbers.");
     if (source->summary)
         report_write_json(page, "summary", source->summary, source->summary_length);
     report_write_json(page, "data", data, length);

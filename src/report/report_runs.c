@@ -97,9 +97,9 @@ static ld_status write_page(FILE *page, const void *of, const char *data, size_t
 {
     const report_runs *self = of;
     ld_status status = LD_OK;
-    report_begin_page(page, &runs_bundle, "Runs laid over each other",
-                      "This report draws its plots with JavaScript; summary.json and history.h5 "
-                      "of each run hold the same numbers.");
+    report_begin_page(page, &runs_bundle, "Runs overlaid",
+                      "This report draws its plots with JavaScript; summary.json and history.h5 of "
+                      "each run have the same numbers.");
     report_write_json(page, "data", data, length);
     for (int i = 0; i < self->count && !status; i++) {
         const report_source *source = &self->run[i].source;

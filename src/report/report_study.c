@@ -98,7 +98,7 @@ static const char *title_of(const study_source *source)
 {
     const study_series *first = &source->series[0];
     if (source->several)
-        return "Studies beside each other";
+        return "Studies compared";
     return *first->data->title ? first->data->title : first->label;
 }
 
@@ -112,7 +112,7 @@ static ld_status make_page(study_source *source, char **text, size_t *length, ld
     fine &= json && fclose(json) == 0;
     if (fine) {
         report_begin_page(page, &study_bundle, title_of(source),
-                          "This report draws its plots with JavaScript; study.db holds the same "
+                          "This report draws its plots with JavaScript; study.db has the same "
                           "numbers, and launchdyn study show prints them.");
         report_write_json(page, "data", data, data_length);
         report_end_page(page, &study_bundle);

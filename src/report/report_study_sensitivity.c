@@ -101,8 +101,8 @@ ld_status study_write_sensitivities(FILE *json, study_source *source)
         return LD_ERR_MEMORY;
     if (fit < RESULTS)
         report_take_note(source->report,
-                         "Sensitivities are those of the first %d of %d results: "
-                         "for more series and factors there is no room.",
+                         "Sensitivities are shown for the first %d of %d results: the report has "
+                         "no room for more.",
                          fit, RESULTS);
     for (int i = 0; i < RESULTS && i < fit; i++) {
         fprintf(json, "%s\n{\"name\":\"%s\",\"series\":[", i ? "," : "", results[i]);

@@ -19,7 +19,7 @@ void study_read(study_source *source, study_series *series, const study_column *
     char what[128];
     series->broken = true;
     snprintf(what, sizeof what,
-             "%.60s is broken, the numbers are of what could be read: ", series->label);
+             "%.60s is damaged, the numbers are of what could be read: ", series->label);
     study_take_problem(source, what, &error);
 }
 

@@ -69,7 +69,7 @@ ld_status hdf5_quiet_end(const hdf5_quiet *quiet, ld_status status, ld_error *er
 // Files that lead to others are none of ours, and what those hold is not of this run.
 static hid_t leads_away(void)
 {
-    snprintf(why.text, sizeof why.text, "it leads to other files");
+    snprintf(why.text, sizeof why.text, "it links to other files");
     return -1;
 }
 

@@ -265,7 +265,7 @@ static ld_status read_launcher(hid_t file, const char *path, history_data *histo
     double format = hdf5_read_number(file, "format");
     if (!(format >= 1 && format <= HISTORY_FORMAT))
         return ld_fail(error, LD_ERR_INPUT,
-                       isnan(format) ? "%s is no history of a run, or is damaged"
+                       isnan(format) ? "%s is not a history of a run, or is damaged"
                                      : "%s is of a later version of launchdyn",
                        path);
     history->title = hdf5_read_string(file, "title");
@@ -282,7 +282,7 @@ static ld_status read_launcher(hid_t file, const char *path, history_data *histo
         !read_flights(file, history) || !read_geometry(file, history))
         return hdf5_failed(error, LD_ERR_INPUT, "read", path);
     if (history->columns == 0 && history->flights == 0)
-        return ld_fail(error, LD_ERR_INPUT, "%s holds no history", path);
+        return ld_fail(error, LD_ERR_INPUT, "%s has no history", path);
     return LD_OK;
 }
 

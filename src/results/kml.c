@@ -170,7 +170,7 @@ ld_status kml_flight(kml_file *file, int rocket, const ld_column *columns, size_
     bool plane = file->column[X] < count && file->column[Z] < count;
     if (file->column[ALTITUDE] == count || file->column[TIME] == count ||
         !(file->geodetic || plane))
-        return ld_fail(error, LD_ERR_INPUT, "the rows of a flight hold no place for %s",
+        return ld_fail(error, LD_ERR_INPUT, "the rows of a flight have no column for %s",
                        file->path);
     end_line(file);
     file->rocket = rocket;

@@ -91,17 +91,15 @@ static const char *const wrongs[] = {
     "'{\"title\": \"text\", \"version\": \"text\", \"complete\": \"true false\","
     " \"t_end\": \"integer real null\", \"rockets\": \"array\"}')"
     " WHERE instr(value, coalesce(json_type(?1, '$.' || key), '-')) = 0",
-    "SELECT '\"files\" is no list of files with name, size and digest'"
-    " FROM json_each(?1, '$.files')"
-    " WHERE type <> 'object' OR json_type(?1, fullkey || '.name') IS NOT 'text'"
-    " OR json_type(?1, fullkey || '.size') IS NOT 'integer'"
-    " OR json_type(?1, fullkey || '.digest') IS NOT 'text'",
-    "SELECT '\"' || replace(substr(fullkey, 3), '\"', '') || '\" is no number' FROM json_tree(?1)"
-    " WHERE type = 'text' AND key NOT IN ('name', 'shape')"
-    " AND path NOT IN ('$', '$.program', '$.notes')"
-    " AND path NOT GLOB '$.source*' AND path NOT GLOB '$.files*'"
-    " AND path NOT GLOB '$.measures*'",
-    "SELECT '\"format\" is no whole number' WHERE json_type(?1, '$.format') <> 'integer'",
+    "SELECT '\"files\" is not a list of files with name, size and digest' FROM json_each(?1, "
+    "'$.files') WHERE type <> 'object' OR json_type(?1, fullkey || '.name') IS NOT 'text' OR "
+    "json_type(?1, fullkey || '.size') IS NOT 'integer' OR json_type(?1, fullkey || '.digest') IS "
+    "NOT 'text'",
+    "SELECT '\"' || replace(substr(fullkey, 3), '\"', '') || '\" is not a number' FROM "
+    "json_tree(?1) WHERE type = 'text' AND key NOT IN ('name', 'shape') AND path NOT IN ('$', "
+    "'$.program', '$.notes') AND path NOT GLOB '$.source*' AND path NOT GLOB '$.files*' AND path "
+    "NOT GLOB '$.measures*'",
+    "SELECT '\"format\" is not a whole number' WHERE json_type(?1, '$.format') <> 'integer'",
     "SELECT 'it is of format ' || json_extract(?1, '$.format') ||"
     " ', and this program reads " MANIFEST_FORMAT "'"
     " WHERE json_extract(?1, '$.format') <> " MANIFEST_FORMAT,
@@ -201,11 +199,11 @@ static ld_status judge(manifest *self, ld_error *error)
     bool sealed = had_seal(self);
     if (sealed && !is_sealed(self)) {
         snprintf(self->problem, sizeof self->problem,
-                 "summary.json is damaged: its text has not the digest of its last line");
+                 "summary.json is damaged: its text does not match the digest in its last line");
         return LD_OK;
     }
     if (memchr(self->text, '\0', self->length)) { // where a reader of JSON may end
-        snprintf(self->problem, sizeof self->problem, "summary.json is damaged: it is no text");
+        snprintf(self->problem, sizeof self->problem, "summary.json is damaged: it is not text");
         return LD_OK;
     }
     ld_status status = read_json(self, error);
@@ -244,10 +242,9 @@ const char *manifest_doubt(const manifest *self)
 {
     switch (self->state) {
     case MANIFEST_NONE:
-        return "there is no summary.json, which would tell whether the files are whole";
+        return "summary.json is missing: the files cannot be verified";
     case MANIFEST_EARLIER:
-        return "summary.json is of an earlier version, which did not tell whether the files are "
-               "whole";
+        return "summary.json is of an earlier version: the files cannot be verified";
     case MANIFEST_DAMAGED:
         return self->problem;
     default:

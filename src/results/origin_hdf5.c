@@ -162,9 +162,10 @@ static ld_status read_history(const char *path, ld_origin *origin, ld_error *err
     bool by_hand = fine && H5Lexists(file, "source", H5P_DEFAULT) <= 0;
     fine = fine && (by_hand || read_source(file, origin));
     H5Fclose(file);
-    return fine || old ? LD_OK
-                       : ld_fail(error, LD_ERR_INPUT,
-                                 "%.300s is damaged: where it comes from cannot be read", path);
+    return fine || old
+               ? LD_OK
+               : ld_fail(error, LD_ERR_INPUT,
+                         "%.300s is damaged: the record of its scenario cannot be read", path);
 }
 
 ld_status origin_read_history(const char *path, ld_origin *origin, ld_error *error)
@@ -195,7 +196,6 @@ ld_status ld_origin_read(const char *folder, ld_origin *origin, ld_error *error)
     status = origin_read_history(path, origin, error);
     if (!status && !origin->scenario)
         return ld_fail(error, LD_ERR_INPUT,
-                       "%.300s does not say where it comes from: it is of an earlier version",
-                       path);
+                       "%.300s has no record of its scenario: it is of an earlier version", path);
     return status;
 }

@@ -217,11 +217,12 @@ static const quantity_group *check_column(const measure_check *check, bool fligh
         return found.group;
     nearest_column(&search, name, near);
     if (*near)
-        refuse(check, "of", "found \"%s\", no column of %s; did you mean \"%s\"?", name, what,
-               near);
+        refuse(check, "of", "found \"%s\", which is not a column of %s; did you mean \"%s\"?", name,
+               what, near);
     else
         refuse(check, "of",
-               "found \"%s\", no column of %s; expected one of docs/quantities.md, such as %s",
+               "found \"%s\", which is not a column of %s; expected one of docs/quantities.md, "
+               "such as %s",
                name, what, flight ? "rocket.pitch_rate" : "tip.pitch_rate");
     return NULL;
 }
@@ -240,14 +241,16 @@ static void refuse_instant(const measure_check *check, const char *key, const ch
     const bool launcher = model_has_launcher(check->model);
     if (launcher && strcmp(name, "t_middle") == 0)
         refuse(check, key,
-               "found \"t_middle\", which is of exactly three adaptors; the rocket has %d",
+               "found \"t_middle\", which requires exactly three adaptors; the rocket has %d",
                check->model->rocket.adaptor_count);
     else if (launcher && strcmp(name, "t_release") == 0)
         refuse(check, key, "found \"t_release\", but the rocket has no lock");
     else if (best.name)
-        refuse(check, key, "found \"%s\", no instant; did you mean \"%s\"?", name, best.name);
+        refuse(check, key, "found \"%s\", which is not an instant; did you mean \"%s\"?", name,
+               best.name);
     else
-        refuse(check, key, "found \"%s\", no instant; expected one of %s", name, known);
+        refuse(check, key, "found \"%s\", which is not an instant; expected one of %s", name,
+               known);
 }
 
 static bool check_instant(const measure_check *check, const char *key, const char *name,
@@ -276,7 +279,7 @@ static void check_flight(const measure_check *check, const ld_measure *measure,
     bool early = from.kind < INSTANT_EXIT || (from.kind == INSTANT_EXIT && from.adaptor > 0);
     if (tip)
         refuse(check, is_of_flight(measure->from) ? begins : "to",
-               "the window never comes: no rocket flies, for run.end is tip");
+               "the window never occurs: with run.end: tip no rocket flies");
     else if (model_has_launcher(check->model) && early)
         refuse(check, begins, "the flight begins at t_rear; found \"%s\"", measure->from);
 }
@@ -288,9 +291,10 @@ static void check_launch(const measure_check *check, const ld_measure *measure,
     const char *ends = measure->take == LD_TAKE_VALUE ? "at" : "to";
     if (from.kind == INSTANT_START && to.kind == INSTANT_IGNITION && starts_lit(check->model))
         refuse(check, ends,
-               "the window never comes: without run.lead_in the run begins with the ignition");
+               "the window never occurs: without run.lead_in the run begins with the ignition");
     else if (group && group->where.type != QUANTITY_NONE && to.kind == INSTANT_END)
-        refuse(check, ends, "%s is of a rocket in its tube, which t_rear ends; found \"end\"",
+        refuse(check, ends,
+               "%s is a column of a rocket in its tube, which t_rear ends; found \"end\"",
                measure->of);
 }
 
@@ -308,10 +312,10 @@ static void check_window(const measure_check *check, const ld_measure *measure)
     if (!good)
         return;
     if (!value && compare(check->model, from, to) >= 0)
-        refuse(check, "to", "the window never comes: %s is not after %s", measure->to,
+        refuse(check, "to", "the window never occurs: %s is not after %s", measure->to,
                measure->from);
     else if (!value && !(measure->within[1] > measure->within[0]))
-        refuse(check, "within", "the window never comes: it ends no later than it begins");
+        refuse(check, "within", "the window never occurs: it ends no later than it begins");
     else if (flight)
         check_flight(check, measure, from);
     else
@@ -323,7 +327,7 @@ static void check_name(const measure_check *check, const ld_measure *measure)
     const ld_measure *all = check->model->measure;
     for (const ld_measure *before = all; before < measure; before++)
         if (measure->name[0] && strcmp(before->name, measure->name) == 0)
-            refuse(check, "name", "measure %d has this name, too", (int)(before - all) + 1);
+            refuse(check, "name", "measure %d has the same name", (int)(before - all) + 1);
 }
 
 void measures_check(const ld_model *model, rule_report *report, void *self)

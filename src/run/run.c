@@ -98,7 +98,7 @@ static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
         return told(run, error);
     if (!(t >= run->t) && !launch_is_finished(run))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the run stands at t = %.9g s and cannot go on to t = %.9g s", run->t, t);
+                       "the run is at t = %.9g s and cannot continue to t = %.9g s", run->t, t);
     double start = cpu_time_now();
     if (run->launch.launcher.base.kind->tell) // what it is told comes then
         run->t_input = t;
@@ -141,7 +141,8 @@ ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *err
     if (run->status)
         return told(run, error);
     if (ld_run_is_finished(run))
-        return ld_fail(error, LD_ERR_INPUT, "the launch is over, the base is told nothing more");
+        return ld_fail(error, LD_ERR_INPUT,
+                       "the launch is over: the base's motion can no longer be set");
     double start = cpu_time_now();
     ld_status status = launch_tell_base(run, base, error);
     run->cpu += cpu_time_now() - start;
@@ -155,7 +156,7 @@ ld_status ld_run_row(ld_run *run, double *values, ld_error *error)
     if (run->status)
         return told(run, error);
     if (!has_launch(run))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone cannot be stepped");
+        return ld_fail(error, LD_ERR_INPUT, "a scenario of flight only cannot be stepped");
     history_row(&run->launch, run->t, run_present_state(run), run->energy_start, values);
     return LD_OK;
 }
@@ -178,7 +179,7 @@ ld_status ld_run_base_wrench(ld_run *run, ld_base_wrench *wrench, ld_error *erro
     if (run->status)
         return told(run, error);
     if (!has_launch(run))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone has no base");
+        return ld_fail(error, LD_ERR_INPUT, "a scenario of flight only has no base");
     return launch_wrench(run, run_present_state(run), wrench, error);
 }
 
@@ -200,12 +201,12 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
                        run->t);
     if (!(t >= run->t))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the run stands at t = %.9g s: no rocket can be lit at t = %.9g s", run->t,
+                       "the run is at t = %.9g s: no rocket can be ignited at t = %.9g s", run->t,
                        t);
     bool last = launch->current + 1 == model->firing_count;
     if (!last && t >= model->firing[launch->current + 1].at)
         return ld_fail(error, LD_ERR_INPUT,
-                       "at t = %.9g s, where rocket %d shall be lit, the next one is fired", t,
+                       "at t = %.9g s rocket %d cannot be ignited: the next rocket is fired", t,
                        launch->current + 1);
     // a step that is under way may go on beyond the ignition
     if (launch_stand(run))
@@ -228,7 +229,7 @@ ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, l
     if (run->status)
         return told(run, error);
     if (!has_launch(run))
-        return ld_fail(error, LD_ERR_INPUT, "a flight alone cannot be saved");
+        return ld_fail(error, LD_ERR_INPUT, "a run of flight only cannot be saved");
     archive count = archive_save(NULL, 0), saved = archive_save(bytes, capacity);
     saved_state_head(&saved_run, run->launch.model, &count, 0);
     launch_archive(run, &count);
@@ -238,7 +239,7 @@ ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, l
     *size = count.at;
     if (capacity < *size)
         return ld_fail(error, LD_ERR_INPUT,
-                       "the run's state takes %zu bytes, there is room for %zu", *size, capacity);
+                       "the run's state requires %zu bytes, the buffer has %zu", *size, capacity);
     saved_state_head(&saved_run, run->launch.model, &saved, (int64_t)*size);
     launch_archive(run, &saved);
     saved_state_sum(&saved);
@@ -248,7 +249,7 @@ ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, l
 static ld_status load(ld_run *run, const void *bytes, size_t size)
 {
     if (!has_launch(run))
-        return ld_fail(&run->error, LD_ERR_INPUT, "a flight alone cannot be saved");
+        return ld_fail(&run->error, LD_ERR_INPUT, "a run of flight only cannot be saved");
     ld_status status = saved_state_check(&saved_run, run->launch.model, bytes, size, &run->error);
     if (!status)
         status = propagator_create(&run->launch, run->outside, &run->propagator, &run->error);

@@ -111,18 +111,15 @@ static int events(double t, const double *y, double *g, void *user)
 static ld_status check_model(const ld_model *model, ld_error *error)
 {
     if (!model_has_vehicle(model))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "base.kind: there is no vehicle that could go alone, which takes kind: "
-                       "vehicle");
+        return ld_fail(error, LD_ERR_INPUT, "base.kind: a vehicle-only run requires kind: vehicle");
     if (model->firing_count > 1)
         return ld_fail(error, LD_ERR_INPUT,
-                       "firing: of a vehicle alone one tube launches, here %d do, one after the "
-                       "other",
+                       "firing: found %d rockets, expected 1 in a vehicle-only run",
                        model->firing_count);
     if (model_has_jet(model))
         return ld_fail(error, LD_ERR_INPUT,
-                       "platform.jet: a vehicle alone does not know where the rocket flies whose "
-                       "jet it would feel");
+                       "platform.jet: a vehicle-only run does not have the rocket's position, "
+                       "which the jet requires");
     return LD_OK;
 }
 
@@ -266,10 +263,11 @@ static ld_status go_to(ld_vehicle_run *self, double t)
         if (outcome == INTEGRATOR_FAILED)
             status = integrator_failure(stepper);
         else if (steps > most)
-            status = ld_fail(&self->error, LD_ERR_NUMERIC,
-                             "the steps became too short to go on: more than %.0f up to t = %.9g "
-                             "s; is a damper or a friction of the vehicle far too hard?",
-                             most, integrator_time(stepper));
+            status = ld_fail(
+                &self->error, LD_ERR_NUMERIC,
+                "the steps became too short to continue: more than %.0f steps up to t = %.9g s; "
+                "check for a damper or friction of the vehicle that is far too stiff",
+                most, integrator_time(stepper));
     }
     return status;
 }
@@ -303,7 +301,7 @@ ld_status ld_vehicle_run_advance(ld_vehicle_run *self, double t, ld_error *error
         return told(self, error);
     if (!(t >= now) || !isfinite(t))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the vehicle's run stands at t = %.9g s and cannot go on to t = %.9g s", now,
+                       "the vehicle's run is at t = %.9g s and cannot continue to t = %.9g s", now,
                        t);
     while (!self->status && now < t) {
         self->status = go_to(self, next_stop(self, now, t));
@@ -325,7 +323,7 @@ ld_status ld_vehicle_run_tell_wrench(ld_vehicle_run *self, const ld_base_wrench 
     for (int i = 0; i < 3; i++)
         sum += 0 * wrench->force[i] + 0 * wrench->moment[i];
     if (sum != 0)
-        return ld_fail(error, LD_ERR_INPUT, "the vehicle is told a wrench that is not finite");
+        return ld_fail(error, LD_ERR_INPUT, "the vehicle received a wrench that is not finite");
     base_frame tube;
     base_found unused;
     self->base.kind->place(&self->base, t, integrator_state(self->integrator), &tube, &unused);
@@ -403,16 +401,16 @@ static const quantity tube_works[] = {
     {"work.tube", "J", "work of the tube on it", AT(tube_work)},
 };
 static const quantity balance[] = {
-    {"energy.residual", "J", "what the vehicle's energy balance misses", AT(residual)},
+    {"energy.residual", "J", "energy residual of the vehicle", AT(residual)},
 };
 static const quantity_group clocks[] = {
     {.title = "time", QUANTITY_ROWS(clock)},
 };
 static const quantity_group balances[] = {
-    {.title = "energy of the vehicle alone", QUANTITY_ROWS(energies)},
+    {.title = "energy of the vehicle", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(works)},
     {.title = "work of the tube", QUANTITY_ROWS(tube_works)},
-    {.title = "balance of the vehicle alone", QUANTITY_ROWS(balance)},
+    {.title = "energy balance of the vehicle", QUANTITY_ROWS(balance)},
 };
 // clang-format on
 
@@ -499,7 +497,7 @@ ld_status ld_vehicle_run_save(ld_vehicle_run *self, void *bytes, size_t capacity
     *size = count.at;
     if (capacity < *size)
         return ld_fail(error, LD_ERR_INPUT,
-                       "the state of a vehicle's run takes %zu bytes, there is room for %zu", *size,
+                       "the state of a vehicle's run requires %zu bytes, the buffer has %zu", *size,
                        capacity);
     saved_state_head(&saved_run, model, &saved, (int64_t)*size);
     archive_all(self, &saved);

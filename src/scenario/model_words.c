@@ -307,7 +307,7 @@ static void tell_drive(FILE *stream, const ld_model *model)
     if (!gas && !motor)
         fprintf(stream, "none");
     if (lock->present)
-        fprintf(stream, "; the lock lets go at %s\n", NEWTONS(lock->release_force));
+        fprintf(stream, "; the lock releases at %s\n", NEWTONS(lock->release_force));
     else
         fprintf(stream, "; no lock\n");
 }

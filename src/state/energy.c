@@ -7,7 +7,7 @@
 #include "state/launch_state.h"
 #include "systems/launching/launching_figures.h"
 
-_Static_assert((int)LAUNCHER_MOST_WORKS <= (int)LD_MAX_WORKS, "works have no room");
+_Static_assert((int)LAUNCHER_MOST_WORKS <= (int)LD_MAX_WORKS, "the works exceed their buffer");
 
 void simulation_energy(const launch_state *self, const launcher_input *input,
                        const launcher_output *out, const double *y, double energy_start,

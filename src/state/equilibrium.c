@@ -895,8 +895,8 @@ static ld_status settle_base(const launch_state *self, double t, const launching
         memcpy(of_base, stands, (size_t)base->state_count * sizeof *of_base);
     if (base->kind->tell && !self->told)
         return ld_fail(error, LD_ERR_INPUT,
-                       "base.kind: external: nobody tells where the base is; a program does that, "
-                       "from the start on and step by step");
+                       "base.kind: external: this base is driven by a program that steps the run; "
+                       "the command cannot run it");
     if (base->kind->tell)
         base->kind->tell(base, t, true, self->told, of_base);
     if (!dynamics)
@@ -1021,8 +1021,8 @@ static ld_status find_with_base(launch_state *self, double t, find_on_base *find
     return status || moved <= near
                ? status
                : ld_fail(error, LD_ERR_NUMERIC,
-                         "run.start: base and tube find no common rest: %d times the base was told "
-                         "the tube's wrench, and it still moves by %.3g m or rad",
+                         "run.start: base and tube reach no common equilibrium: after %d exchanges "
+                         "of the wrench the base still moves by %.3g m or rad",
                          MOST_TURNS, moved);
 }
 
@@ -1077,11 +1077,10 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
     double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
     char left[64];
     if (!(best <= accepted))
-        status = ld_fail(
-            error, LD_ERR_NUMERIC,
-            "run.start: no static equilibrium was found%s: is the rocket held by gravity on two "
-            "adaptors? \"run.start: undeformed\" starts without it",
-            smallest_residual(best, left));
+        status = ld_fail(error, LD_ERR_NUMERIC,
+                         "run.start: no static equilibrium was found%s: check that gravity holds "
+                         "the rocket on two adaptors; \"run.start: undeformed\" starts without it",
+                         smallest_residual(best, left));
     if (!status)
         status = check_carried(&whole, y, accepted, error);
     if (!status)
@@ -1204,10 +1203,10 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     launcher_select(&self->launcher, next);
     const char *why = held_by_one(&phase, launcher->launching.adaptors.count);
     if (why)
-        return ld_fail(error, LD_ERR_LAUNCH,
-                       "rocket.start_at: tube %d finds no static equilibrium when it takes its "
-                       "place at t = %.6g s: %s",
-                       self->model->firing[next].tube, t, why);
+        return ld_fail(
+            error, LD_ERR_LAUNCH,
+            "rocket.start_at: tube %d has no static equilibrium at its turn, t = %.6g s: %s",
+            self->model->firing[next].tube, t, why);
 
     // the new tube in equilibrium on the base held still
     base_frame going = going_of(self, t, y);
@@ -1230,10 +1229,9 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     free(tube.jacobian);
     char left[64];
     if (!(best <= accepted))
-        return ld_fail(
-            error, LD_ERR_NUMERIC,
-            "tube %d finds no static equilibrium when it takes its place at t = %.6g s%s",
-            self->model->firing[next].tube, t, smallest_residual(best, left));
+        return ld_fail(error, LD_ERR_NUMERIC,
+                       "tube %d has no static equilibrium at its turn, t = %.6g s%s",
+                       self->model->firing[next].tube, t, smallest_residual(best, left));
     status = check_carried(&tube, found, accepted, error);
     if (status)
         return status;

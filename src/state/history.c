@@ -197,7 +197,7 @@ static const quantity pressures[] = {
     {"pressure.force", "N", "its force on the rocket along the tube", AT(out.launching.pressure_force)},
 };
 static const quantity slides[] = {
-    {"recoil.%s.travel", "m", "recoil slide %s: way back from battery", EACH(out.launching.slide, travel)},
+    {"recoil.%s.travel", "m", "recoil slide %s: travel back from battery", EACH(out.launching.slide, travel)},
     {"recoil.%s.rate", "m/s", "recoil slide %s: rate of that", EACH(out.launching.slide, rate)},
     {"recoil.%s.force", "N", "recoil slide %s: force on the tube, forwards", EACH(out.launching.slide, force)},
 };
@@ -239,7 +239,7 @@ static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
-    {"energy.residual", "J", "what the energy balance misses", AT(energy.residual)},
+    {"energy.residual", "J", "residual of the energy balance", AT(energy.residual)},
 };
 
 #define ROCKET .where = QUANTITY_AT(launch_instant, rocket)
@@ -259,14 +259,14 @@ static const quantity_group groups[] = {
     {.title = "air on the rocket on an open guide", .each = EACH_OPEN_AIR, ROCKET, QUANTITY_ROWS(open_air)},
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
     {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
-    {.title = "what the tube carries at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
-    {.title = "what a support puts on the tube", .each = EACH_SUPPORT, QUANTITY_ROWS(reactions)},
+    {.title = "section loads at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
+    {.title = "loads of a support on the tube", .each = EACH_SUPPORT, QUANTITY_ROWS(reactions)},
 };
 static const quantity_group balances[] = {
     {.title = "energy", QUANTITY_ROWS(energies)},
     {.title = "works since the start", QUANTITY_ROWS(driving_works)},
     {.title = "works of a slot", .each = EACH_SLOT, QUANTITY_ROWS(slot_works)},
-    {.title = "works of what holds the tube, and of lost mass", QUANTITY_ROWS(holding_works)},
+    {.title = "works of lock, supports, damping, base and lost mass", QUANTITY_ROWS(holding_works)},
     {.title = "work of the air on the emerged part of the rocket", .each = EACH_CROSSFLOW, QUANTITY_ROWS(crossflow_works)},
     {.title = "work of the air on the rocket on an open guide", .each = EACH_OPEN_AIR, QUANTITY_ROWS(open_air_works)},
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},

@@ -81,8 +81,8 @@ static void test_ended_by_a_signal(void **state)
     char text[256];
     expect_end((end){.signal = SIGSEGV}, LD_ERR_FILE, 0, "ended by signal 11 (Segmentation fault)");
     expect_end((end){.signal = SIGKILL, .read = "a/history.h5"}, LD_ERR_FILE, 0,
-               "ended by signal 9 (Killed) while reading a/history.h5: it is damaged, or there is "
-               "no memory");
+               "ended by signal 9 (Killed) while reading a/history.h5: the file is damaged, or "
+               "memory ran out");
     const char *first = in("first.part"), *second = in("second");
     snprintf(text, sizeof text, "ended by signal 6 (Aborted) while writing %s", first);
     expect_end((end){.signal = SIGABRT, .first = first, .second = second}, LD_ERR_FILE, 0, text);

@@ -168,7 +168,7 @@ static void test_a_study(void **state)
         "launchdyn study export v --csv v.csv >/dev/null && cmp s.csv v.csv");
     must("launchdyn study --again away/s --only 3 --out w -q && launchdyn run --again w/sample-3 "
          "--out x -q && cmp w/sample-3/history.h5 x/history.h5");
-    expect_complaint("launchdyn study --again none --out y", 2, "none holds no study");
+    expect_complaint("launchdyn study --again none --out y", 2, "none contains no study");
     must("mkdir bad && echo text >bad/study.db");
     expect_complaint("launchdyn study --again bad --out y", 2,
                      "bad/study.db is damaged: file is not a database\n");
@@ -231,12 +231,11 @@ static void test_damaged_and_foreign_folders(void **state)
         must("cp good/history.h5 a/history.h5");
         take_away(members[i]);
         expect_complaint(AGAIN "a", 2,
-                         "a/history.h5 is damaged: where it comes from cannot be read");
+                         "a/history.h5 is damaged: the record of its scenario cannot be read");
     }
     must("cp good/history.h5 a/history.h5");
     take_away("program");
-    expect_complaint(AGAIN "a", 2,
-                     "does not say where it comes from: it is of an earlier version\n");
+    expect_complaint(AGAIN "a", 2, "has no record of its scenario: it is of an earlier version\n");
     must("cp good/history.h5 a/history.h5");
     take_away("source");
     expect_complaint(AGAIN "a", 2,

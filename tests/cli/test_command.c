@@ -132,7 +132,7 @@ static void test_run_writes_results(void **state)
 {
     (void)state;
     assert_int_equal(run("launchdyn run examples/fixed.yaml --out a/b --csv"), 0);
-    expect_in(shell.out, "\n  muzzle speed ");
+    expect_in(shell.out, "\n  exit speed ");
     assert_string_equal(shell.err, "");
     assert_int_equal(run("ls a/b; jq -r '.complete, .rockets[0].tube' a/b/summary.json"), 0);
     assert_string_equal(shell.out, "history.csv\nhistory.h5\nsummary.json\ntrue\n8\n");
@@ -159,8 +159,9 @@ static void test_report(void **state)
     assert_int_equal(run("launchdyn report a -o b.html && cmp a/report.html b.html"), 0);
     expect_in(shell.out, "b.html: ");
     assert_int_equal(run("rm a/summary.json; launchdyn report a"), 0);
-    assert_string_equal(shell.err, "launchdyn: No summary: there is no summary.json, which would "
-                                   "tell whether the files are whole.\n");
+    assert_string_equal(
+        shell.err,
+        "launchdyn: No summary: summary.json is missing: the files cannot be verified.\n");
     expect_complaint("launchdyn report a -o none/b.html", 3, "none/b.html: No such file");
 }
 
@@ -272,14 +273,14 @@ static void test_a_launch_that_cannot_happen(void **state)
     assert_int_equal(run("launchdyn run examples/fixed.yaml --out o "
                          "--set rocket.lock.release_force='50 kN' --set run.stuck_time='50 ms'"),
                      1);
-    expect_in(shell.err, "launchdyn: the lock never let go");
+    expect_in(shell.err, "launchdyn: the lock never released");
     expect_in(shell.out, "\nStopped at ");
     assert_int_equal(run("jq -r '.complete, .stopped, .rockets[0].t_release' o/summary.json"), 0);
-    expect_in(shell.out, "false\nthe lock never let go");
+    expect_in(shell.out, "false\nthe lock never released");
     expect_in(shell.out, "\nnull\n");
     assert_int_equal(run("h5dump -a /stopped o/history.h5 && h5dump -H -d /history/t o/history.h5"),
                      0);
-    expect_in(shell.out, "the lock never let go");
+    expect_in(shell.out, "the lock never released");
     assert_int_equal(run("launchdyn plot o -o o/x.svg"), 0);
     // milliseconds, of which the run has 50
     assert_int_equal(run("launchdyn plot o --from 20 --to 30 -o o/part.svg"), 0);
@@ -548,8 +549,8 @@ static void test_exit_scatter(void **state)
                          "--what pitch_rate,t_release"),
                      0);
     expect_in(shell.out, "Scatter of the exit on a road of class A, tracks same, 30 km/h; linear "
-                         "about the equilibrium, hinges rub as the road moves them\n"
-                         "4 launches with drawn phases of the road\n");
+                         "about the equilibrium, friction of the hinges linearised for the motion "
+                         "on the road\n4 launches with sampled phases of the road\n");
     CHECK_WITHIN("mean of pitch_rate [mrad/s]", number_of("pitch_rate"), -260, -230);
     assert_int_equal(run("head -n 1 a/x/response-exit.csv"), 0);
     assert_string_equal(shell.out,
@@ -572,17 +573,17 @@ static void test_loop(void **state)
                      0);
     expect_in(shell.out, "Loop of the elevation, 30 km/h; linear about the equilibrium");
     expect_in(shell.out,
-              "\n  gain may be raised by a factor of       1.569    3.91 dB, at 31.89 Hz\n");
+              "\n  gain margin upwards, factor             1.569    3.91 dB, at 31.89 Hz\n");
     expect_in(shell.out, "\n  phase                                   28.39 degrees\n");
     expect_in(shell.out, "\n  peak of the sensitivity                 3.252 at 27.39 Hz\n");
-    expect_in(shell.out, "\n  most of the chassis' turning let in   0.004128 at 23.92 Hz\n");
+    expect_in(shell.out, "\n  largest share of the chassis' rotation   0.004128 at 23.92 Hz\n");
     // phases are drawn in degrees, with ticks of 90
     assert_int_equal(run("sed 's/<[^>]*>//g' a/l/l.svg | tr -d ' \\t' | "
                          "grep -xe '-180' -e '-90' -e 90 -e 180"),
                      0);
     assert_string_equal(shell.out, "-180\n-90\n90\n180\n");
     assert_int_equal(run("launchdyn response examples/reference.yaml --loop azimuth"), 0);
-    expect_in(shell.out, "\n  gain may be raised by a factor of         any\n");
+    expect_in(shell.out, "\n  gain margin upwards, factor               any\n");
     expect_in(shell.out, "\n  sensitivity above one                 nowhere\n");
     assert_int_equal(run("ls a/l; head -n 1 a/l/response-loop.csv"), 0);
     assert_string_equal(shell.out, "l.svg\nresponse-loop.csv\n"
@@ -601,9 +602,10 @@ static void test_response_of_what_is_not_there(void **state)
         {"examples/reference.yaml --speeds 0:60",
          "launchdyn: --speeds: found \"0:60\", expected FROM:TO:STEP in km/h, such as 0:60:1\n"},
         {"examples/reference.yaml --speeds 10:60:0",
-         "launchdyn: speeds from 10 km/h to 60 km/h by 0 km/h are none, or more than 10000\n"},
+         "launchdyn: speeds from 10 km/h to 60 km/h by 0 km/h: expected 1 to 10000 speeds\n"},
         {"examples/reference.yaml --speeds 10:60:5 -i road",
-         "launchdyn: a frequency response is one at one speed: speeds go with the road alone\n"},
+         "launchdyn: a frequency response is at one speed: several speeds require the road as "
+         "input\n"},
         {"examples/reference.yaml -w tip.pich",
          "launchdyn: unknown quantity \"tip.pich\", did you mean \"tip.pitch\"?\n"},
         {"examples/reference.yaml -w aim.yaw_rate",
@@ -612,40 +614,41 @@ static void test_response_of_what_is_not_there(void **state)
         {"examples/reference.yaml -i elevation.comand",
          "launchdyn: unknown input \"elevation.comand\", did you mean \"elevation.command\"?\n"},
         {"examples/reference.yaml -i road --from 5 --to 2",
-         "launchdyn: 5 Hz to 2 Hz is no range of frequencies: it goes up, from above 0\n"},
+         "launchdyn: found 5 Hz to 2 Hz, expected a rising range of frequencies above 0\n"},
         {"examples/reference.yaml --loop elevatio",
          "launchdyn: unknown hinge \"elevatio\", did you mean \"elevation\"?\n"},
         {"examples/reference.yaml --loop elevation -i road",
-         "launchdyn: a loop is shown by itself at one speed: without input, quantities, speeds\n"},
+         "launchdyn: a loop is shown separately, at one speed: it excludes input, quantities, "
+         "speeds\n"},
         {"examples/reference.yaml --density a.csv",
-         "launchdyn: a spectral density is that of an input: it wants the name of one (launchdyn "
-         "response --list lists them)\n"},
+         "launchdyn: a spectral density is that of an input: it requires the name of one "
+         "(launchdyn response --list lists them)\n"},
         {"examples/reference.yaml --exit -i road",
-         "launchdyn: the road scatters the exit: it is shown without input and loop\n"},
-        {"examples/reference.yaml --draws 5",
-         "launchdyn: draws are those of the exit: they go with it alone\n"},
+         "launchdyn: the scatter of the exit is caused by the road: it excludes input and loop\n"},
+        {"examples/reference.yaml --draws 5", "launchdyn: draws require the scatter of the exit\n"},
         {"examples/reference.yaml --exit --draws 1",
-         "launchdyn: 1 draws: there are 2 or more, or 0: none\n"},
+         "launchdyn: found 1 draws, expected 0 (none) or at least 2\n"},
         {"examples/reference.yaml -x -w pich",
          "launchdyn: unknown result of a launch \"pich\", did you mean \"pitch\"?\n"},
-        {"examples/fixed.yaml -x", "launchdyn: there is no road: the base is no vehicle\n"},
+        {"examples/fixed.yaml -x", "launchdyn: there is no road: the base is not a vehicle\n"},
         {"examples/reference.yaml -x --draws 2 -w pitch -p a.svg",
-         "launchdyn: the exit's scatter is drawn over speeds: --speeds says which\n"},
+         "launchdyn: the scatter of the exit is drawn over speeds: set --speeds\n"},
         {"examples/reference.yaml --rub --loop azimuth",
          "launchdyn: a loop is shown without friction of the hinges\n"},
         {"examples/fixed.yaml --loop azimuth",
-         "launchdyn: there is no loop: the base is no vehicle, and has no hinges\n"},
+         "launchdyn: there is no loop: the base is not a vehicle\n"},
         {"examples/fixed.yaml",
-         "launchdyn: the base is no vehicle on a road: a response wants the name of an input "
+         "launchdyn: the base is not a vehicle on a road: a response requires the name of an input "
          "(launchdyn response --list lists them)\n"},
-        {"examples/flight.yaml", "launchdyn: a flight alone has no launcher, and no response\n"},
+        {"examples/flight.yaml",
+         "launchdyn: a scenario of flight only has no launcher and no response\n"},
         {"examples/reference.yaml --set base.speed='0 km/h'",
-         "launchdyn: the road does nothing to a vehicle that stands: it takes a speed above 0\n"},
+         "launchdyn: the response to the road requires a speed above 0\n"},
         {"examples/reference.yaml -w all -p a.svg",
          "launchdyn: a page has room for 8 charts of 6 quantities of one unit each: name fewer "
          "quantities\n"},
         {"examples/reference.yaml -w since_ignition.pitch,thrust -p a.svg",
-         "launchdyn: none of these quantities answers before the launch, nothing is drawn\n"},
+         "launchdyn: none of these quantities responds before the launch, nothing is drawn\n"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char line[256];
@@ -665,9 +668,8 @@ static void test_road(void **state)
     expect_in(shell.out,
               "Road: class A, seed 1, tracks independent, x = -20 m to 80 m every 0.1 m");
     expect_in(shell.out, "\n  n [1/m]                        left       right     class A\n");
-    expect_in(shell.out,
-              "\nClass of ISO 8608: not told; it takes waves of 5 m to 10 m, the stretch "
-              "shows those of 0.4 m to 6.4 m\n");
+    expect_in(shell.out, "\nClass of ISO 8608: not determined; it requires waves of 5 m to 10 m, "
+                         "the section has those of 0.4 m to 6.4 m\n");
     assert_int_equal(run("ls a/b; head -n 2 road.svg | grep -c svg; wc -l <a/b/road.csv; "
                          "head -n 1 a/b/road.csv a/b/road-spectrum.csv; tail -n 1 a/b/road.csv | "
                          "cut -d , -f 1"),
@@ -707,13 +709,13 @@ static void test_road(void **state)
     expect_in(shell.out, "\n  right  G ");
 
     expect_complaint("launchdyn road examples/fixed.yaml", 2,
-                     "launchdyn: there is no road: the base is no vehicle\n");
+                     "launchdyn: there is no road: the base is not a vehicle\n");
     expect_complaint("launchdyn road examples/reference.yaml --step 0", 2,
-                     "from -100 m to 100 m by 0 m has not");
+                     "from -100 m to 100 m by 0 m has another number");
     expect_complaint("launchdyn road examples/reference.yaml --to x", 2,
                      "launchdyn: --to: found \"x\", expected a number in m\n");
     expect_complaint("launchdyn road examples/reference.yaml --plot x.bmp", 2,
-                     "a picture's name ends in .svg, .pdf or .png");
+                     "expected a picture's name that ends in .svg, .pdf or .png");
 }
 
 static void test_wind(void **state)
@@ -749,10 +751,10 @@ static void test_wind(void **state)
                      "launchdyn: there is no wind in the scenario\n");
     expect_complaint("launchdyn wind examples/fixed.yaml --set 'environment.wind={turbulence: "
                      "{wind_at_6m: 5 m/s}}' --step 0",
-                     2, "a line through the air needs 2 to 1000000 places");
+                     2, "a line through the air requires 2 to 1000000 points");
     expect_complaint("launchdyn wind examples/fixed.yaml --set 'environment.wind={speed: 1 m/s}' "
                      "--height -1",
-                     2, "a wind is shown at a height from 0 m on");
+                     2, "expected a height of at least 0 m");
 }
 
 #define TEST(function) cmocka_unit_test_setup_teardown(function, shell_make, shell_remove)

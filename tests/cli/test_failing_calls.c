@@ -300,7 +300,7 @@ static const char *const verdicts[VERDICTS] = {
 static bool shows_the_rest(const char *text)
 {
     return strstr(text, "; the report shows the rest\n") ||
-           strstr(text, "; the table holds what is intact");
+           strstr(text, "; the table has what is intact");
 }
 
 // Whether the text is one message, of a scenario's text with the line that it is about, and names

@@ -167,12 +167,12 @@ static void test_exit_errors(void **state)
                          "jq -r '.rockets[0].exit_error.relative, .notes[0]'"),
                      0);
     assert_int_equal(sscanf(shell.out,
-                            "%lf the rates at the exit of rail 1 may be off by %lf %%: errors of "
-                            "the steps grow",
+                            "%lf the exit rates of rail 1 may be off by %lf %%: integration "
+                            "errors grow",
                             &relative, &noted),
                      2);
     CHECK_NEAR("error that the note tells [%]", noted, 100 * relative, 0.06 * noted);
-    expect_in(shell.out, "; with a smaller run.tolerance they are smaller\n");
+    expect_in(shell.out, "; reduce run.tolerance\n");
     assert_int_equal(run("launchdyn run --json " RATTLING "--set run.tolerance=1e-7 | "
                          "jq -c '.notes'"),
                      0);
@@ -196,9 +196,9 @@ static void test_exit_errors(void **state)
     CHECK_WITHIN("of them", number[1], 1, 4);
     assert_true(number[0] == 4 && number[2] == 4 && number[3] == 0);
     char line[128];
-    snprintf(line, sizeof line, "through errors of the steps: %.3g %% of 4 rockets\n",
+    snprintf(line, sizeof line, "through integration errors: %.3g %% of 4 rockets\n",
              25 * number[1]);
-    assert_int_equal(run("launchdyn study show e | grep 'rates at the exit off by more than 1 %'"),
+    assert_int_equal(run("launchdyn study show e | grep 'exit rates off by more than 1 %'"),
                      0);
     expect_in(shell.out, line);
 }
@@ -347,7 +347,7 @@ static void test_study(void **state)
                             &found[3], &found[4]),
                      5);
     CHECK_NEAR("samples", found[0], SAMPLES, 0);
-    CHECK_NEAR("mean muzzle speed [m/s]", found[1], mean, 1e-12);
+    CHECK_NEAR("mean exit speed [m/s]", found[1], mean, 1e-12);
     CHECK_NEAR("its deviation [m/s]", found[2], deviation, 1e-12);
     CHECK_NEAR("the least [m/s]", found[3], least, 0);
     // Student's t of 7 degrees of freedom, 97.5 %
@@ -422,8 +422,8 @@ static void test_study_footprints(void **state)
     assert_int_equal(run("launchdyn study show safe | grep -A 4 '^footprints, for range safety: "
                          "where landings lie; 200 rockets'"),
                      0);
-    assert_non_null(strstr(shell.out, "\n99 %     too few landings: 900 independent ones are "
-                                      "needed, 200 are there\n"));
+    assert_non_null(strstr(
+        shell.out, "\n99 %     too few landings: 900 independent ones are needed, found 200\n"));
     const char *line = strstr(shell.out, "\n95 %     95 [");
     assert_non_null(line);
     assert_int_equal(sscanf(line, "\n95 %%     95 [%lf, %*f] %lf [%*f, %*f] %*f [%*f, %lf]",

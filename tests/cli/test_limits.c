@@ -40,13 +40,13 @@ static void test_codes(void **state)
     assert_int_equal(run("launchdyn check examples/fixed.yaml"), 0);
     expect_sentence("launchdyn run examples/fixed.yaml --quiet --set run.stuck_time='50 ms' "
                     "--set rocket.lock.release_force='50 kN'",
-                    LAUNCH, "the lock never let go");
+                    LAUNCH, "the lock never released");
 
     // what was given: words, scenarios, folders of results, which may be damaged
     expect_sentence("launchdyn rum", INPUT, "unknown command");
     expect_sentence("launchdyn plot none -o x.svg", INPUT, "no results in none");
     expect_sentence("launchdyn report none", INPUT, "no results in none");
-    expect_sentence("launchdyn study show none", INPUT, "none holds no study");
+    expect_sentence("launchdyn study show none", INPUT, "none contains no study");
     run("mkdir bad; echo x >bad/history.h5; launchdyn run none.yaml");
     assert_int_equal(shell.code, INPUT);
     expect_sentence("launchdyn plot bad -o x.svg", INPUT, "cannot read bad/history.h5: ");

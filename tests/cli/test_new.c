@@ -27,8 +27,7 @@ static void one(const char *guide, const char *base, double least, double most)
     printf("    %s, %s:\n", guide, base);
     // v^2 = 2 a s: 8 kN on 60 kg along 60 deg; propellant burnt gains, friction and spin cost some
     double way = strcmp(guide, "rail") == 0 ? 4.6 : 2.9, pull = 8e3 / 60 - 9.81 * 0.866;
-    CHECK_WITHIN("muzzle speed over that of a point mass", speed / sqrt(2 * pull * way), 0.99,
-                 1.02);
+    CHECK_WITHIN("exit speed over that of a point mass", speed / sqrt(2 * pull * way), 0.99, 1.02);
     CHECK_WITHIN("tip-off pitch rate [rad/s]", rate, least, most);
     CHECK_WITHIN("highest point [m]", apogee, 2800, 3500);
     // the lines of the study at its end, without their marks

@@ -639,7 +639,7 @@ static void refusals(void **state)
     ld_tubes model = good;
     model.modes.bending = 0;
     refuse(&model, LD_ERR_INPUT,
-           "a tube has 1 to 24 bending, 0 to 8 torsion and 0 to 8 axial modes, not 0, 2 and 0");
+           "expected 1 to 24 bending, 0 to 8 torsion and 0 to 8 axial modes, found 0, 2 and 0");
     model = good;
     model.modes.elements = 2;
     model.modes.bending = 7;
@@ -653,13 +653,13 @@ static void refusals(void **state)
     model = good;
     model.section[0].bending_stiffness = NAN;
     refuse(&model, LD_ERR_NUMERIC,
-           "the modes of the clamped tube cannot be found: is a stiffness or a mass not finite or "
-           "out of all proportion?");
+           "the modes of the clamped tube cannot be computed: check that stiffnesses and masses "
+           "are finite and in proportion");
     model = good;
     model.support[1].stiffness[1] = INFINITY;
     refuse(&model, LD_ERR_NUMERIC,
-           "the modes of the tube on its supports cannot be found: is a stiffness or a mass not "
-           "finite or out of all proportion?");
+           "the modes of the tube on its supports cannot be computed: check that stiffnesses and "
+           "masses are finite and in proportion");
     model = good;
     model.support[1].at = 3.5;
     refuse(&model, LD_ERR_INPUT,

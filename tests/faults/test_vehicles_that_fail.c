@@ -27,8 +27,8 @@ DOES_NOT_START(weak_stabiliser, LD_ERR_INPUT,
 
 DOES_NOT_START(
     mass_centre_before_the_wheels, LD_ERR_NUMERIC,
-    "base.wheels: the vehicle finds no static equilibrium on its wheels (smallest "
-    "residual # m/s2): do all wheels reach the road, and is the mass centre between them?",
+    "base.wheels: the vehicle has no static equilibrium on its wheels (smallest residual # m/s2): "
+    "check that all wheels reach the road and the mass centre is between them",
     for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[0] += 4)
 
 DOES_NOT_START(weightless, LD_ERR_INPUT,
@@ -71,9 +71,10 @@ static void damper_like_rock(void **state)
     run(&model, &ear, &out);
     printf("    %s\n", out.error.text);
     assert_int_equal(out.status, LD_ERR_NUMERIC);
-    assert_true(matches(out.error.text, "the steps became too short to go on: more than 20000 "
-                                        "between two exchanges of the subsystems, up to t = # s; "
-                                        "is a damper or a friction of the vehicle far too hard?"));
+    assert_true(matches(out.error.text,
+                        "the steps became too short to continue: more than 20000 steps "
+                        "between two exchanges of the subsystems, up to t = # s; check for "
+                        "a damper or friction of the vehicle that is far too stiff"));
 }
 
 // Not failures: launches that look odd but happen.

@@ -519,8 +519,9 @@ static void test_what_can_be_wrong(void **state)
     (void)state;
     expect(
         in("run"), "tipp", in("x.svg"), LD_ERR_INPUT,
-        "there is no figure \"tipp\" (did you mean tip?); there are travel, contact, relative, ");
-    expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT, "no figure \"spaghetti\"; there are");
+        "unknown figure \"tipp\" (did you mean tip?); expected one of travel, contact, relative, ");
+    expect(in("run"), "spaghetti", in("x.svg"), LD_ERR_INPUT,
+           "unknown figure \"spaghetti\"; expected one of");
     expect(in("run"), "tip", in("x.jpg"), LD_ERR_INPUT, "ends in .svg, .pdf or .png");
     expect(in("run"), "tip", in("none/x.svg"), LD_ERR_FILE, "No such file or directory");
     expect(in("none"), "tip", in("x.svg"), LD_ERR_INPUT, "there is no history.h5");
@@ -531,15 +532,15 @@ static void test_what_can_be_wrong(void **state)
     assert_string_equal(error.text, "there is nothing to draw from 100 ms to 50 ms");
     picture.folder_count = 9;
     assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "name 1 to 8 folders with results");
+    assert_string_equal(error.text, "expected 1 to 8 folders with results");
     picture = (ld_picture){&run_folder, 1, &figure, 1, .from = NAN, .to = NAN, .style = "papr"};
     assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "there is no style \"papr\" (did you mean paper?); there are "
-                                    "screen, dark and paper");
+    assert_string_equal(
+        error.text, "unknown style \"papr\" (did you mean paper?); expected screen, dark or paper");
     picture.style = "paper";
     picture.width = 0.01;
     assert_int_equal(ld_plot(&picture, in("x.svg"), &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "a picture is 50 mm to 500 mm wide, not 10 mm");
+    assert_string_equal(error.text, "found a width of 10 mm, expected 50 mm to 500 mm");
     assert_int_not_equal(access(in("x.svg"), F_OK), 0);
     const char *many[32];
     for (size_t i = 0; i < 32; i++)

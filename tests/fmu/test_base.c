@@ -429,20 +429,20 @@ static const struct {
      {"the FMU ended with signal 11 (Segmentation fault) in fmi2DoStep at t = ",
       "the FMU ended with signal 11 (Segmentation fault) in fmi3DoStep at t = "}},
     {2,
-     {"the FMU did not come back within 0.2 s in fmi2DoStep at t = ",
-      "the FMU did not come back within 0.2 s in fmi3DoStep at t = "}},
+     {"the FMU did not return within 0.2 s in fmi2DoStep at t = ",
+      "the FMU did not return within 0.2 s in fmi3DoStep at t = "}},
     {3,
      {"the FMU ended itself (exit code 3) in fmi2DoStep at t = ",
       "the FMU ended itself (exit code 3) in fmi3DoStep at t = "}},
     {6,
-     {"the FMU says that base.position.y is nan at t = ",
-      "the FMU says that base.position.y is nan at t = "}},
+     {"the FMU reports that base.position.y is nan at t = ",
+      "the FMU reports that base.position.y is nan at t = "}},
     {7,
      {"the FMU reports an error in fmi2DoStep at t = -0.005 s: the platform has had enough",
       "the FMU reports an error in fmi3DoStep at t = -0.005 s: the platform has had enough"}},
     {9,
-     {"the FMU asks for the end of the simulation in fmi2DoStep at t = ",
-      "the FMU asks for the end of the simulation in fmi3DoStep at t = "}},
+     {"the FMU requests the end of the simulation in fmi2DoStep at t = ",
+      "the FMU requests the end of the simulation in fmi3DoStep at t = "}},
     {11,
      {"the FMU has moved by 0.001 (m, or of its quaternion) when its initialization ends",
       "the FMU has moved by 0.001 (m, or of its quaternion) when its initialization ends"}},
@@ -637,7 +637,7 @@ static void a_run_is_not_saved_where_it_does_not(void **state)
     ld_error error;
     size_t size;
     assert_int_equal(ld_run_save(run, NULL, 0, &size, &error), LD_ERR_INPUT);
-    if (!strstr(error.text, "the FMU does not give its own as bytes"))
+    if (!strstr(error.text, "the FMU cannot serialise its own"))
         fail_msg("%s", error.text);
     ld_run_end(run, NULL, NULL);
     end(&self);

@@ -82,11 +82,12 @@ static void one_that_has_changed_is_refused(void **state)
     expect_in(shell.err, "platform.yaml:11:9: error: base.file: ");
     expect_complaint("launchdyn run understood.yaml --out again", 2,
                      "/there/platform2.fmu\" has changed: expected FNV-1a ");
-    expect_complaint("launchdyn study there/platform.yaml --set 'scatter={samples: 4, factors: "
-                     "{rocket.mass: {normal: 0.5 kg}}}' --out study",
-                     2,
-                     "study.db holds the study of another scenario, which differs first in "
-                     "\"digest: \"FNV-1a ");
+    expect_complaint(
+        "launchdyn study there/platform.yaml --set 'scatter={samples: 4, factors: "
+        "{rocket.mass: {normal: 0.5 kg}}}' --out study",
+        2,
+        "study.db contains the study of another scenario, whose first difference is in "
+        "\"digest: \"FNV-1a ");
     expect_complaint("launchdyn run there/platform.yaml --set base.digest=none", 2,
                      "/there/platform2.fmu\" has changed: expected none, found FNV-1a ");
     // whichever digest is the greater one

@@ -550,16 +550,16 @@ static void refuses_wrong_calls(void **state)
     REFUSED(FMU_FUNCTION(&fmu, fmi3UpdateDiscreteStates)(one, &a, &b, &a, &b, &a, &t),
             "the instance is in continuous-time mode: enter event mode first");
     REFUSED(FMU_FUNCTION(&fmu, fmi3DoStep)(one, 0, 0.1, true, &a, &b, &a, &t),
-            "this instance is one for model exchange: its importer takes the steps");
-    REFUSED(FMU_FUNCTION(&fmu, fmi3SetTime)(one, NAN), "the time is no number");
+            "this is a model-exchange instance: its importer integrates it");
+    REFUSED(FMU_FUNCTION(&fmu, fmi3SetTime)(one, NAN), "the time is not a number");
     REFUSED(FMU_FUNCTION(&fmu, fmi3GetContinuousStates)(one, x, 3),
-            "3 numbers for 64 continuous states");
+            "found 3 numbers for 64 continuous states");
     REFUSED(FMU_FUNCTION(&fmu, fmi3GetEventIndicators)(one, x, 3),
-            "3 numbers for 8 event indicators");
+            "found 3 numbers for 8 event indicators");
     memcpy(x, by.x, by.states * sizeof *x);
     x[1] = NAN;
     assert_int_equal(FMU_FUNCTION(&fmu, fmi3SetContinuousStates)(one, x, by.states), fmi3Discard);
-    assert_string_equal(logged, "a state is no number");
+    assert_string_equal(logged, "a state is not a number");
     for (size_t i = 0; i < by.states; i++)
         x[i] = 1e200;
     importer_place(&by, 0, x);
@@ -570,8 +570,8 @@ static void refuses_wrong_calls(void **state)
     assert_float_equal(by.next, 0.01, 0);
     importer_place(&by, 0.01 + 1e-6, by.x);
     REFUSED(FMU_FUNCTION(&fmu, fmi3CompletedIntegratorStep)(one, true, &a, &b),
-            "a step ends at 0.010000999999999999 s, the one before at 0 s, and the next event was "
-            "to be met at 0.01 s");
+            "found a step that ends at 0.010000999999999999 s after one that ended at 0 s; "
+            "expected at most the next event, at 0.01 s");
     importer_place(&by, 0.01 - 1e-15, by.x);
     assert_true(importer_complete(&by));
     FMU_FUNCTION(&fmu, fmi3FreeInstance)(one);

@@ -570,7 +570,7 @@ static void refuses_what_is_wrong(void **state)
         return;
     void *c = begin();
     assert_int_equal(put(c, "base.position.x", 1), fmi2Error);
-    assert_string_equal(logged, "variable 6 is no input and no parameter");
+    assert_string_equal(logged, "variable 6 is neither an input nor a parameter");
     assert_int_equal(put(c, "pitch", NAN), fmi2Error);
     assert_string_equal(logged, "variable 33 cannot be nan");
     assert_int_equal(put(c, "step", 0), fmi2Error);

@@ -102,15 +102,15 @@ static void arrays_of_FMI_3(void **state)
 static const struct {
     const char *text, *in;
 } wrong[] = {
-    {"", "modelDescription.xml:1: is no XML: no element found"},
-    {"<a", "modelDescription.xml:1: is no XML: "},
-    {"<a/>", "is no description of an FMU: its root is a"},
-    {"<fmiModelDescription fmiVersion='1.0'/>", "is of another version of FMI than 2 and 3: 1.0"},
+    {"", "modelDescription.xml:1: is not valid XML: no element found"},
+    {"<a", "modelDescription.xml:1: is not valid XML: "},
+    {"<a/>", "is not a description of an FMU: its root is a"},
+    {"<fmiModelDescription fmiVersion='1.0'/>", "has an FMI version other than 2 and 3: 1.0"},
     {"<fmiModelDescription fmiVersion='2.0'/>", "has no guid"},
     {"<fmiModelDescription fmiVersion='3.0'/>", "has no instantiationToken"},
-    {ROOT_2 "<ModelExchange modelIdentifier='it'/>" END, "x.fmu: is no FMU for co-simulation"},
-    {ROOT_2 "<CoSimulation/>" END, "wants one modelIdentifier that is a name in C, has none"},
-    {ROOT_2 "<CoSimulation modelIdentifier='../it'/>" END, "has ../it"},
+    {ROOT_2 "<ModelExchange modelIdentifier='it'/>" END, "x.fmu: is not an FMU for co-simulation"},
+    {ROOT_2 "<CoSimulation/>" END, "requires one modelIdentifier that is a name in C; found none"},
+    {ROOT_2 "<CoSimulation modelIdentifier='../it'/>" END, "found ../it"},
     {VARIABLES("<Float64 valueReference='1'/>"), "has a variable without a name"},
     {VARIABLES("<Float64 name='a'/>"), "has no good valueReference of variable a"},
     {VARIABLES("<Float64 name='a' valueReference='-1'/>"), "has no good valueReference"},
@@ -119,14 +119,14 @@ static const struct {
     {VARIABLES("<Float64 name='a' valueReference='1'/><Int8 name='a' valueReference='2'/>"),
      "has two variables a"},
     {VARIABLES("<Int8 name='a' valueReference='1'><Dimension/></Int8>"),
-     "wants start or valueReference, a whole number, of a dimension of variable a"},
+     "requires start or valueReference, a whole number, of a dimension of variable a"},
     {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='-1'/></Int8>"),
-     "wants start or valueReference, "},
+     "requires start or valueReference, "},
     {VARIABLES(
          "<Int8 name='a' valueReference='1'><Dimension start='1' valueReference='1'/></Int8>"),
-     "wants start or valueReference, "},
+     "requires start or valueReference, "},
     {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='0'/></Int8>"),
-     "the dimensions of an array are 1 to a million elements, not of a"},
+     "has an array of 0 or more than a million elements: a"},
     {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='1001'/><Dimension "
                "start='1000'/></Int8>"),
      "1 to a million elements, not of a"},
@@ -134,7 +134,7 @@ static const struct {
          "<Int8 name='a' valueReference='1' start='1'><Dimension valueReference='1'/></Int8>"),
      "1 to a million elements, not of a"},
     {VARIABLES("\n<Clock name='tick' valueReference='1'/>"),
-     "x.fmu: modelDescription.xml:2: has a clock, which is not taken in here: tick"},
+     "x.fmu: modelDescription.xml:2: has a clock, which is not supported: tick"},
     {"<!DOCTYPE f [<!ENTITY a 'b'>]>" ROOT_2 "&a;" END, "has a DOCTYPE"},
 };
 

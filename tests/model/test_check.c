@@ -51,15 +51,15 @@ static void test_values(void **state)
             "tubes.supports.2.stiffness: -5 N/m is not allowed; expected >= 0 N/m");
     REFUSED(m.tubes.modes.bending = 25, "tubes.modes.bending: 25 is not from 1 to 24");
     REFUSED(m.rocket.contact.law = (ld_contact_law)9,
-            "rocket.contact.law: no value of this choice");
-    REFUSED(m.tubes.slot.kind = (ld_slot_kind)7, "tubes.slot: no value of this choice");
+            "rocket.contact.law: not a value of this choice");
+    REFUSED(m.tubes.slot.kind = (ld_slot_kind)7, "tubes.slot: not a value of this choice");
     REFUSED(m.tubes.section[0].form = (ld_section_form)5,
-            "tubes.sections.1: no value of this choice");
+            "tubes.sections.1: not a value of this choice");
     REFUSED(m.rocket.adaptor_count = 9, "rocket.adaptors: 9 entries, not 2 to 8");
     REFUSED(m.rocket.motor.thrust.data[3] = NAN, "rocket.motor.thrust: nan N is not allowed");
     REFUSED(m.run.end = LD_END_TIME, "run.end: 0 s is not allowed; expected > 0 and <= 10000 s");
     REFUSED(memset(m.rocket.adaptor[0].name, 'a', LD_MAX_NAME),
-            "rocket.adaptors.1.name: not ended by a zero");
+            "rocket.adaptors.1.name: not terminated by a zero");
 }
 
 static void test_rules(void **state)
@@ -67,9 +67,8 @@ static void test_rules(void **state)
     (void)state;
     REFUSED(m.rocket.empty.mass = 60.5,
             "rocket.empty.mass: 60.5 kg is more than the full mass, 60 kg");
-    REFUSED(m.rocket.adaptor[1].clearance = 0,
-            "rocket.adaptors.2.clearance: must be > 0 m; without clearance take the contact law "
-            "bilateral");
+    REFUSED(m.rocket.adaptor[1].clearance = 0, "rocket.adaptors.2.clearance: must be > 0 m; "
+                                               "without clearance use the contact law bilateral");
     REFUSED(m.rocket.adaptor[1].clearance = NAN,
             "rocket.adaptors.2.clearance: missing; expected a number with a unit of m, > 0 m");
     REFUSED(m.tubes.section[0].mass_per_length = NAN,
@@ -89,28 +88,27 @@ static void test_vehicle(void **state)
     REFUSED_OF(VEHICLE, m.base.vehicle.wheel[1].mount[2] = NAN,
                "base.wheels.2.mount: nan m is not allowed; expected from -1000 to 1000 m");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = -2,
-               "base.road.class: no value of this choice");
+               "base.road.class: not a value of this choice");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = 8,
-               "base.road.class: no value of this choice");
+               "base.road.class: not a value of this choice");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.form = (ld_road_form)2,
-               "base.road: no value of this choice");
+               "base.road: not a value of this choice");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = LD_ROAD_SMOOTH,
-               "base.road: nothing gives it a height: give class, sines, bumps or table, or flat: "
-               "true");
+               "base.road: it has no height: give class, sines, bumps or table, or flat: true");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.tracks = LD_TRACKS_COHERENT,
-               "base.road.coherence: missing; coherent tracks need the table of g over spatial "
+               "base.road.coherence: missing; coherent tracks require the table of g over spatial "
                "frequency");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.wavelengths[1] = 0.1,
                "base.road.wavelengths: the shortest, 0.3 m, must be less than the longest, 0.1 m");
     REFUSED_OF(VEHICLE, for (int i = 0; i < 4; i++) m.base.vehicle.wheel[i].driven = false,
-               "base.drive.wheels: no wheel is driven; nothing would hold 10 m/s");
+               "base.drive.wheels: no wheel is driven; a speed of 10 m/s requires one");
     REFUSED_OF(VEHICLE, m.platform.elevation.mass = NAN,
                "platform.elevation.mass: nan kg is not allowed; expected > 0 kg");
     REFUSED_OF(VEHICLE, m.platform.elevation.stabiliser.command.data[1] = 1.5,
                "platform.elevation.stabiliser.command: 85.9437 deg; a pitch command must lie "
                "between -80 and 80 deg");
     REFUSED_OF(VEHICLE, m.platform.azimuth.stabiliser.command.columns = 3,
-               "platform.azimuth.stabiliser.command: has not the columns that it must have");
+               "platform.azimuth.stabiliser.command: does not have the required columns");
     REFUSED_OF(VEHICLE, m.platform.azimuth.stabiliser.kd = NAN,
                "platform.azimuth.stabiliser: missing: kd; only a hinge with a lock does without");
     REFUSED_OF(VEHICLE, m.platform.azimuth.lock.present = true,
@@ -123,7 +121,7 @@ static void test_vehicle(void **state)
     REFUSED_OF(VEHICLE, m.run.coupling_step = 0.02,
                "run.coupling.step: 0.02 s is not allowed; expected from 0 to 0.01 s");
     REFUSED(m.run.coupling_step = 1e-4,
-            "run.coupling: goes with base.kind: vehicle; another base has no subsystems to couple");
+            "run.coupling: requires base.kind: vehicle; other bases have no subsystems to couple");
 }
 
 // A fresh model lacks what has no default, and says so.

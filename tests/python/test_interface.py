@@ -108,7 +108,7 @@ class TestInterface(unittest.TestCase):
     def test_another_version_is_refused(self):
         number = _library.library.ld_version_number()
         _library.check_version(number + 1, "another patch")
-        with self.assertRaisesRegex(ImportError, "goes with launchdyn"):
+        with self.assertRaisesRegex(ImportError, "requires launchdyn"):
             _library.check_version(number + 100, "another minor version")
 
 

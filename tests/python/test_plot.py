@@ -39,7 +39,7 @@ class TestGnuplot(Case):
         ld.draw(ours, runs[0])
         self.assertEqual(ours.read_bytes(), theirs.read_bytes())
         (runs[0] / "summary.json").unlink()
-        with self.assertWarnsRegex(UserWarning, "there is no summary.json"):
+        with self.assertWarnsRegex(UserWarning, "summary.json is missing"):
             ld.draw(ours, runs[0])
         with self.assertRaisesRegex(ld.InputError, "did you mean tip"):
             ld.draw(ours, *runs, figures=["tp"])
@@ -74,7 +74,7 @@ class TestPlot(Case):
         self.assertEqual(len(tip.lines), 3)
         with self.assertRaisesRegex(ValueError, "2 units"):
             result.plot("tip.y", "tip.pitch_rate", ax=tip)
-        with self.assertRaisesRegex(ValueError, "name the columns"):
+        with self.assertRaisesRegex(ValueError, "no columns given"):
             result.plot()
         with self.assertRaises(ld.UnknownName):
             result.plot("tip.yy")

@@ -179,7 +179,7 @@ class TestResponse(Case):
             with self.assertRaises(ValueError):
                 wrong()
         with self.read.response(0, 10) as response, \
-                self.assertRaisesRegex(ld.InputError, "vehicle that stands"):
+                self.assertRaisesRegex(ld.InputError, "requires a speed above 0"):
             response.on_road("tip.y", speed=0)
         with ld.Scenario.read(FIXED).response() as closed:
             pass

@@ -139,7 +139,7 @@ class TestResult(Case):
                                ld.Scenario.read(FIXED).simulation().tube_modes()[0].frequency)
 
     def test_shown(self):
-        self.assertIn("muzzle speed", str(self.result))
+        self.assertIn("exit speed", str(self.result))
         self.assertIn("<pre>", self.result._repr_html_())
         self.assertEqual(repr(self.result),
                          f"<launchdyn.Result: rockets 1, rows {len(self.result['t'])}>")
@@ -214,10 +214,10 @@ class TestEarlyEnds(Case):
         with self.assertRaises(ld.LaunchError) as caught:
             stuck.run(out=self.folder / "out")
         error = caught.exception
-        self.assertIn("the lock never let go", str(error))
+        self.assertIn("the lock never released", str(error))
         self.assertEqual(error.code, ld.Status.LAUNCH)
         self.assertGreater(error.result["t"][-1], 0.1)
-        self.assertIn("the lock never let go", error.result.stopped)
+        self.assertIn("the lock never released", error.result.stopped)
         self.assertTrue((self.folder / "out/summary.json").exists())
 
     def test_so_does_one_whose_numerics_fail(self):

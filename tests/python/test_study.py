@@ -194,7 +194,7 @@ class TestStudy(Case):
         self.assertEqual(third["rocket.mass"], data["rocket.mass"][2])
         self.assertEqual(third.run().summary["rocket.1.range"], data["range"][2])
         for change in (third.set, third.derive):
-            with self.assertRaisesRegex(ValueError, "as it was drawn"):
+            with self.assertRaisesRegex(ValueError, "a sample cannot be changed"):
                 change({"rocket.spin": 0})
         again = ld.Scenario.from_text(third.to_yaml(), {"title": "again"})
         self.assertEqual(again.run().summary["rocket.1.range"], data["range"][2])

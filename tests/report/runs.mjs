@@ -52,7 +52,7 @@ async function checkOver(browser, runs) {
   check("runs are named by the key in which they differ", legend.join() === "clearance 0.0002 m,clearance 0.0003 m,clearance 0.0005 m", legend);
   const values = await cellsOf(page, "rocket.adaptors.rear.clearance");
   check("the key stands in the table", values.join() === "0.0002 m,0.0003 m,0.0005 m", values);
-  const speeds = await cellsOf(page, "speed along the tube as it leaves");
+  const speeds = await cellsOf(page, "exit speed, along the tube");
   check("summaries stand side by side", speeds.length === 4 && runs.every(({ summary }, i) =>
     near(Number(speeds[i]), summary.rockets[0].muzzle_speed, 1e-5)), speeds);
   const measured = await cellsOf(page, "bound");

@@ -165,7 +165,7 @@ export async function checkInjected(browser, file) {
   await page.context().close();
 }
 
-// Waits until what was asked for is drawn.
+// Waits until what was requested is drawn.
 export const drawn = (page) =>
   page.evaluate(() => new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go))));
 

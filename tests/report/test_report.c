@@ -452,8 +452,8 @@ static void test_what_is_missing_is_said(void **state)
     make_results(1605, "Whole", "front");
     assert_int_equal(run("cd %s && mv summary.json away"), 0);
     char *page = write_report(&report);
-    expect_note(&report, "No summary: there is no summary.json");
-    assert_non_null(strstr(page, "No summary: there is no summary.json"));
+    expect_note(&report, "No summary: summary.json is missing");
+    assert_non_null(strstr(page, "No summary: summary.json is missing"));
     assert_non_null(strstr(page, "\"tip.y\""));
     free(page);
 
@@ -474,7 +474,7 @@ static void test_what_is_missing_is_said(void **state)
     assert_string_equal(error.text, "cannot write /dev/full: No space left on device");
     assert_int_equal(ld_report_write(in("summary.json"), NULL, &report, &error), LD_ERR_INPUT);
     printf("    %s\n", error.text);
-    assert_non_null(strstr(error.text, "summary.json is no folder"));
+    assert_non_null(strstr(error.text, "summary.json is not a folder"));
 }
 
 // What a killed run leaves.
@@ -494,7 +494,7 @@ static void test_part_of_a_run(void **state)
     assert_int_equal(run("mv %1$s/kept %1$s/history.h5.part"), 0);
     ld_report report;
     char *page = write_report(&report);
-    expect_note(&report, "The run did not come to its end");
+    expect_note(&report, "The run did not reach its end");
     CHECK_WITHIN("rows of the whole blocks",
                  (double)read_column(page, "tube", "tip.y", times, values), 1024, 1024);
     free(page);

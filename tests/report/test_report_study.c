@@ -622,7 +622,7 @@ static int run(const char *command)
 static void test_what_is_missing_is_said(void **state)
 {
     (void)state;
-    expect_failure("none", "holds no study");
+    expect_failure("none", "contains no study");
     make_study("empty", "Empty", 0, "");
     char *page = report_one("empty", NULL);
     assert_non_null(strstr(page, "\"samples\":0,\"done\":0,\"failed\":0"));

@@ -336,11 +336,12 @@ static void test_what_is_said(void **state)
     expect_report("cp other/summary.json run", LD_ERR_INPUT, "history.h5 is damaged",
                   "trajectories.kml is damaged");
     expect_report("sed -i 's/\"tube\": 8/\"tube\": 7/' run/summary.json", LD_ERR_INPUT,
-                  "summary.json is damaged: its text has not the digest of its last line",
+                  "summary.json is damaged: its text does not match the digest in its last line",
                   "No summary");
     expect_report("rm run/*", LD_ERR_INPUT, "no results in ", "There is no history.h5");
     // what is beside it is not looked at
-    expect_report("rm run/summary.json; touch run/my.txt", LD_OK, "", "No summary: there is no");
+    expect_report("rm run/summary.json; touch run/my.txt", LD_OK, "",
+                  "No summary: summary.json is missing");
 }
 
 // A summary of a version without digests: its members are looked at, no more.
@@ -351,15 +352,15 @@ static void test_earlier_version(void **state)
 {
     (void)state;
     expect_report(EARLIER, LD_OK, "",
-                  "Whether the files are whole is not known: summary.json is of an earlier");
+                  "The files cannot be verified: summary.json is of an earlier");
     expect_report(EARLIER " && sed -i 's/\"muzzle_speed\": [0-9]/\"muzzle_speed\": \"/; "
                           "s/\\(\"muzzle_speed\": \"[^,]*\\),/\\1\",/' run/summary.json",
-                  LD_ERR_INPUT, "\"rockets[0].muzzle_speed\" is no number", "No summary");
+                  LD_ERR_INPUT, "\"rockets[0].muzzle_speed\" is not a number", "No summary");
     expect_report(EARLIER " && jq 'del(.rockets)' run/summary.json >x && mv x run/summary.json",
                   LD_ERR_INPUT, "\"rockets\" is missing, or something else", "No summary");
     expect_report(EARLIER " && printf 'x' >>run/summary.json", LD_ERR_INPUT, "malformed JSON",
                   "No summary");
-    expect_report(EARLIER " && printf '\\0' >>run/summary.json", LD_ERR_INPUT, "it is no text",
+    expect_report(EARLIER " && printf '\\0' >>run/summary.json", LD_ERR_INPUT, "it is not text",
                   "No summary");
     // no digest is kept of the history, which HDF5 then refuses
     expect_report(EARLIER " && truncate -s 70000 run/history.h5", LD_ERR_INPUT,
@@ -380,8 +381,8 @@ static void test_other_formats(void **state)
     (void)state;
     static const struct {
         const char *format, *text;
-    } formats[] = {{"\"2\"", "summary.json is damaged: \"format\" is no whole number"},
-                   {"2.5", "summary.json is damaged: \"format\" is no whole number"},
+    } formats[] = {{"\"2\"", "summary.json is damaged: \"format\" is not a whole number"},
+                   {"2.5", "summary.json is damaged: \"format\" is not a whole number"},
                    {"99", "summary.json is damaged: it is of format 99, and this program reads 2"}};
     for (int i = 0; i < 3; i++) {
         char text[256];

@@ -361,7 +361,7 @@ static void test_terminal_table(void **state)
     fclose(stream);
     assert_non_null(strstr(text, "  bending y                 31.25   128.50\n"));
     assert_non_null(strstr(text, "  rear adaptor leaves        160.4000 ms\n"));
-    assert_non_null(strstr(text, "  muzzle speed                37.7000 m/s\n"));
+    assert_non_null(strstr(text, "  exit speed                  37.7000 m/s\n"));
     static const char *const against_launcher =
         "  since ignition, angles      -0.8000      -1.0000 mrad\n"
         "  since ignition, roll       128.9155 deg\n"
@@ -684,7 +684,7 @@ static void test_histories_that_lead_to_other_files(void **state)
         write_launch(here, "run", false, 10);
         lead_away(in(here, "run/history.h5"), in(here, "other/history.h5"), way);
         assert_int_equal(history_read(in(here, "run/history.h5"), &read, &error), LD_ERR_INPUT);
-        assert_non_null(strstr(error.text, "run/history.h5: it leads to other files"));
+        assert_non_null(strstr(error.text, "run/history.h5: it links to other files"));
     }
 }
 

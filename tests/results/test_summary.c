@@ -704,7 +704,7 @@ static void test_study_results(void **state)
 static const struct {
     const char *label, *path[2];
 } lines[] = {
-    {"lock carries", {"equilibrium.lock_force"}},
+    {"lock force", {"equilibrium.lock_force"}},
     {"slot force", {"equilibrium.slot_force"}},
     {"contact rear", {"equilibrium.contact_force.rear"}},
     {"contact middle", {"equilibrium.contact_force.middle"}},
@@ -714,7 +714,7 @@ static const struct {
     {"front adaptor leaves", {"rockets.0.t_front"}},
     {"middle adaptor leaves", {"rockets.0.t_middle"}},
     {"rear adaptor leaves", {"rockets.0.t_rear"}},
-    {"muzzle speed", {"rockets.0.muzzle_speed"}},
+    {"exit speed", {"rockets.0.muzzle_speed"}},
     {"inertial speed", {"rockets.0.inertial_speed"}},
     {"spin rate", {"rockets.0.spin_rate"}},
     {"since ignition, angles", {"rockets.0.since_ignition.pitch", "rockets.0.since_ignition.yaw"}},

@@ -139,9 +139,8 @@ static void a_rigid_platform_late(void **state)
     model.platform.elevation.stabiliser.sample = 16e-3;
     model.platform.elevation.stabiliser.delay = 12e-3;
     assert_int_equal(ld_loop_create(&model, "elevation", &loop, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text,
-                        "platform.elevation.stabiliser: unstable: its delay and half its period "
-                        "make the loop late by 20 ms, and it bears 12.4 ms");
+    assert_string_equal(error.text, "platform.elevation.stabiliser: unstable: delay and half the "
+                                    "period are 20 ms, the loop's delay margin is 12.4 ms");
     reference_model_free(&model);
 }
 
@@ -337,11 +336,11 @@ static void what_has_no_loop_is_told(void **state)
     (void)state;
     ld_model model;
     reference_model(&model);
-    expect(&model, "elevation", "there is no loop: the base is no vehicle, and has no hinges");
+    expect(&model, "elevation", "there is no loop: the base is not a vehicle");
     reference_model_free(&model);
     reference_vehicle(&model, speed);
     expect(&model, "elevaton", "unknown hinge \"elevaton\", did you mean \"elevation\"?");
-    expect(&model, "x", "unknown hinge \"x\": it is azimuth or elevation");
+    expect(&model, "x", "unknown hinge \"x\"; expected azimuth or elevation");
     model.platform.azimuth.lock = (ld_hinge_lock){true, 1e8, 1e5};
     expect(&model, "azimuth", "platform.azimuth.lock: there is no loop: the hinge is locked");
     model.platform.elevation.stabiliser.kd = -1e5;

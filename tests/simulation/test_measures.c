@@ -372,7 +372,7 @@ static void test_nothing_else(void **state)
     assert_true(measured(&model, 0, "soon") > 0);
     assert_int_equal(first.note_count, 1);
     assert_string_equal(first.note[0], "measure.late of tube 8 has no value: its window did not "
-                                       "come, or tip.pitch is not there in all of it");
+                                       "occur, or tip.pitch is missing in a part of it");
     model_clear(&model);
     read_example("fixed.yaml", sets, 1, &model);
     run_model(&model, NULL, &second);
@@ -393,8 +393,8 @@ static void test_by_hand(void **state)
     model.measure_count = 1;
     model.measure[0] = (ld_measure){.name = "x", .of = "tip.pich", .from = "t_rear"};
     assert_int_equal(ld_simulation_create(&model, &simulation, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "measures.1.of: found \"tip.pich\", no column of the launch; "
-                                    "did you mean \"tip.pitch\"?");
+    assert_string_equal(error.text, "measures.1.of: found \"tip.pich\", which is not a column of "
+                                    "the launch; did you mean \"tip.pitch\"?");
     model_clear(&model);
 }
 

@@ -574,7 +574,7 @@ static void other_bytes_are_refused(void **state)
     assert_int_equal(ld_run_save(run, bytes, sizeof bytes, &size, &error), LD_OK);
     ld_run_end(run, NULL, NULL);
     for (size_t cut = 0; cut < size; cut += 61)
-        load_refuses(simulation, bytes, cut, cut < 8 ? "no saved run" : "");
+        load_refuses(simulation, bytes, cut, cut < 8 ? "not a saved run" : "");
     int accepted = 0;
     for (size_t at = 0; at < size; at += 7) {
         memcpy(other, bytes, size);
@@ -582,9 +582,9 @@ static void other_bytes_are_refused(void **state)
         accepted += ld_run_load(simulation, NULL, other, size, &run, &error) == LD_OK;
     }
     CHECK_WITHIN("loads of bytes with one bit flipped", accepted, 0, 0);
-    load_refuses(simulation, bytes, size - 1, "cut off or damaged");
+    load_refuses(simulation, bytes, size - 1, "truncated or damaged");
     other[0] = 0;
-    load_refuses(simulation, other, size, "no saved run");
+    load_refuses(simulation, other, size, "not a saved run");
     memcpy(other, bytes, size);
     other[8]++;
     load_refuses(simulation, other, size, "another version");

@@ -260,7 +260,7 @@ static void saved_and_loaded(void **state)
     ld_vehicle_run_end(again);
     bytes[size / 2] ^= 1;
     assert_int_equal(ld_vehicle_run_load(simulation, bytes, size, &again, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "the saved run of a vehicle is cut off or damaged");
+    assert_string_equal(error.text, "the saved run of a vehicle is truncated or damaged");
     assert_null(again);
     assert_int_equal(ld_vehicle_run_save(run, bytes, 8, &size, &error), LD_ERR_INPUT);
     ld_vehicle_run_end(run);
@@ -284,8 +284,7 @@ static void refuses(void **state)
     (void)state;
     ld_model model;
     reference_model(&model);
-    refused(&model,
-            "base.kind: there is no vehicle that could go alone, which takes kind: vehicle");
+    refused(&model, "base.kind: a vehicle-only run requires kind: vehicle");
     reference_model_free(&model);
     reference_vehicle(&model, 0);
     ld_error error;
@@ -294,18 +293,18 @@ static void refuses(void **state)
     assert_int_equal(ld_vehicle_run_begin(simulation, &run, &error), LD_OK);
     ld_base_wrench wrench = {{0, NAN, 0}, {0, 0, 0}};
     assert_int_equal(ld_vehicle_run_tell_wrench(run, &wrench, &error), LD_ERR_INPUT);
-    assert_string_equal(error.text, "the vehicle is told a wrench that is not finite");
+    assert_string_equal(error.text, "the vehicle received a wrench that is not finite");
     assert_int_equal(ld_vehicle_run_advance(run, 0.01, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_advance(run, 0, &error), LD_ERR_INPUT);
     assert_string_equal(error.text,
-                        "the vehicle's run stands at t = 0.01 s and cannot go on to t = 0 s");
+                        "the vehicle's run is at t = 0.01 s and cannot continue to t = 0 s");
     ld_vehicle_run_end(run);
     ld_simulation_free(simulation);
     model.firing_count = 2;
     model.firing[1] = model.firing[0];
     model.firing[1].at = 1;
     model.firing[1].tube = model.firing[0].tube + 1;
-    refused(&model, "firing: of a vehicle alone one tube launches, here 2 do, one after the other");
+    refused(&model, "firing: found 2 rockets, expected 1 in a vehicle-only run");
     reference_model_free(&model);
 }
 

@@ -305,7 +305,7 @@ static void expect_told(const char *sql, const char *part)
 static void test_odd_contents(void **state)
 {
     (void)state;
-    static const char kept[] = "samples that are not as they were kept: ",
+    static const char kept[] = "changed samples: ",
                       *const changed[] = {
                           "UPDATE study SET value = '1 1 0 0' WHERE name = 'kept'",
                           "DELETE FROM study WHERE name = 'kept'",
@@ -319,12 +319,12 @@ static void test_odd_contents(void **state)
                           "ALTER TABLE rocket RENAME COLUMN pitch TO pitsch",
                       };
     for (size_t i = 0; i < sizeof changed / sizeof *changed; i++)
-        expect_told(changed[i], "what it says of the study");
+        expect_told(changed[i], "its tables study, point, origin were changed");
     expect_told("UPDATE study SET value = '99' WHERE name = 'format'", "is of format 99, begun by");
-    expect_told("DELETE FROM study", "holds no study");
-    expect_told("DROP TABLE study", "holds no study");
-    expect_told("DROP TABLE rocket", "what it says of the study");
-    expect_told("CREATE TABLE more (a)", "its table more is none of a study's");
+    expect_told("DELETE FROM study", "contains no study");
+    expect_told("DROP TABLE study", "contains no study");
+    expect_told("DROP TABLE rocket", "its tables study, point, origin were changed");
+    expect_told("CREATE TABLE more (a)", "its table more does not belong to a study");
     expect_told("DELETE FROM rocket WHERE sample = 7", kept);
     expect_told("DELETE FROM rocket", kept);
     expect_told("DELETE FROM sample WHERE sample = 7", kept);
@@ -338,7 +338,7 @@ static void test_odd_contents(void **state)
     expect_told("UPDATE rocket SET downrange = NULL WHERE sample = 7", kept);
     expect_told("UPDATE rocket SET downrange = 9e999", kept);
     expect_told("UPDATE rocket SET rocket = 2 WHERE sample = 7", kept);
-    expect_told("INSERT INTO rocket (sample, rocket) VALUES (99, 1)", "rockets of no sample");
+    expect_told("INSERT INTO rocket (sample, rocket) VALUES (99, 1)", "rockets without a sample");
 }
 
 // ---- forged, with the digests that belong to it
@@ -352,15 +352,15 @@ typedef struct forgery {
 
 static const forgery forgeries[] = {
     {"CREATE TRIGGER steal AFTER INSERT ON sample BEGIN DELETE FROM rocket; END",
-     "its trigger steal is none of a study's", false},
-    {"CREATE VIEW more AS SELECT * FROM rocket", "its view more is none of a study's", false},
+     "its trigger steal does not belong to a study", false},
+    {"CREATE VIEW more AS SELECT * FROM rocket", "its view more does not belong to a study", false},
     {"ALTER TABLE rocket RENAME TO r; CREATE VIEW rocket AS SELECT * FROM r",
-     "is none of a study's", false},
-    {"CREATE INDEX quick ON rocket (pitch)", "its index quick is none of a study's", false},
-    {"CREATE TABLE more (a)", "its table more is none of a study's", false},
-    {"ALTER TABLE rocket ADD more REAL AS (pitch + 1)", "its table rocket is none of a study's",
-     true},
-    {"ALTER TABLE study ADD more", "its table study is none of a study's", true},
+     "does not belong to a study", false},
+    {"CREATE INDEX quick ON rocket (pitch)", "its index quick does not belong to a study", false},
+    {"CREATE TABLE more (a)", "its table more does not belong to a study", false},
+    {"ALTER TABLE rocket ADD more REAL AS (pitch + 1)",
+     "its table rocket does not belong to a study", true},
+    {"ALTER TABLE study ADD more", "its table study does not belong to a study", true},
 };
 
 static void expect_none_taken(const char *name)

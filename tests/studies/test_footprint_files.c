@@ -194,7 +194,7 @@ static void test_places(void **state)
     assert_int_equal(read_places(outline, strstr(outline, "</outer"), kml), first);
     assert_memory_equal(kml, json, (size_t)first * sizeof *kml);
     assert_non_null(strstr(map, "<name>99 % of landings</name>\n<description>too few landings: 900 "
-                                "independent ones are needed, 300 are there"));
+                                "independent ones are needed, found 300"));
     free(csv);
     free(geojson);
     free(map);
@@ -334,7 +334,7 @@ static void test_round_earth(void **state)
         flat.line[0].at[n][1] -= 3340;
     }
     assert_int_equal(footprint_shape_on_earth(&site, &one, &placed, &error), LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "goes round a pole"));
+    assert_non_null(strstr(error.text, "encloses a pole"));
     flat.line[0].at[0][0] = 7e6;
     assert_int_equal(footprint_shape_on_earth(&site, &one, &placed, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "beyond the horizon"));
@@ -353,9 +353,10 @@ static void test_refused(void **state)
         const char *text, *file, *why;
     } cases[] = {
         {"include: range-safety.yaml\nscatter: {samples: 20}\n", "few.kml",
-         "no footprint, not even of 95 %: too few landings: 180 independent ones are needed, 20"},
+         "no footprint, not even of 95 %: too few landings: 180 independent ones are needed, found "
+         "20"},
         {"include: range-safety.yaml\nscatter: {samples: 4}\nenvironment:\n  site:\n", "flat.kml",
-         "wants a place on the Earth: the scenario has no environment.site; a .csv file"},
+         "requires a position on the Earth: the scenario has no environment.site; a .csv file"},
         {"include: range-safety.yaml\nscatter: {samples: 2}\nsweep: {environment.site.azimuth: [0 "
          "deg, 9 deg]}\n",
          "swept.geojson", "environment.site.azimuth differs from launch to launch"},

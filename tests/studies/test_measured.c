@@ -241,7 +241,7 @@ static void test_wrong_files(void **state)
     refuse("", "0:1", "the file is empty");
     refuse("# nothing\n\n", "2:1", "the file is empty");
     refuse("salvo\n1\n", "1:1", "names no result, such as \"t_front [ms]\"");
-    refuse("t_front [ms]\n", "1:1", "no shot follows the header");
+    refuse("t_front [ms]\n", "1:1", "no launch follows the header");
     refuse("t_rear [ms],t_fornt [ms]\n", "1:13",
            "the study has no result \"t_fornt\", did you mean \"t_front\"?");
     refuse("rocket.mass_error [kg]\n1\n", "1:1", "the study has no result \"rocket.mass_error\"");
@@ -253,7 +253,7 @@ static void test_wrong_files(void **state)
     refuse("t_front [ms\n96\n", "1:1", "expected a result with its unit");
     refuse("t_front [ms];t_rear [ms]\n1;2\n", "1:1", "semicolons between fields");
     refuse("t_front [ms], \n96,\n", "1:14", "expected a result with its unit");
-    refuse("t_front [ms],t_front [s]\n", "1:14", "t_front: stands in a column before this one");
+    refuse("t_front [ms],t_front [s]\n", "1:14", "t_front: is given in an earlier column");
     refuse("salvo,salvo\n", "1:7", "the study has no result \"salvo\"");
     refuse("t_front [ms],t_rear [ms]\n1,2\n3\n", "3:1",
            "found 1 fields; expected 2, as in the header");
@@ -268,11 +268,11 @@ static void test_wrong_files(void **state)
     ld_error error;
     assert_int_equal(measured_read(shots_file("pitch [deg]\n1\0002\n", 16), &data, &shots, &error),
                      LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, ":2:1: this line is no text, or too long"));
+    assert_non_null(strstr(error.text, ":2:1: this line is not text, or is too long"));
     static const char empty[] = "salvo,pitch [deg],yaw [deg]\n1,,2\n2,,2\n";
     assert_int_equal(measured_read(shots_file(empty, sizeof empty - 1), &data, &shots, &error),
                      LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "shots.csv: pitch: no shot has a value"));
+    assert_non_null(strstr(error.text, "shots.csv: pitch: no launch has a value"));
     assert_int_equal(measured_read(in("none.csv"), &data, &shots, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "none.csv cannot be read: No such file"));
 }
@@ -310,7 +310,7 @@ static void test_table(void **state)
     fclose(stream);
     char *table = shown(text);
     printf("%s", table);
-    assert_non_null(strstr(table, "shots.csv: 12 shots\n"));
+    assert_non_null(strstr(table, "shots.csv: 12 launches\n"));
     char expected[64];
     group_statistics s;
     assert_int_equal(statistics_of(values.value[0], values.group, values.count, &s), LD_OK);

@@ -145,7 +145,7 @@ static void test_refusals(void **state)
     ld_study *swept =
         study_with(LAUNCH "sweep: {rocket.mass: [60 kg, 61 kg]}\n", "scatter.samples=1");
     study_run(swept, "swept", 1);
-    expect_refusal(study, "swept", "differs first in \"sweep:\"");
+    expect_refusal(study, "swept", "first difference is in \"sweep:\"");
     ld_study_free(swept);
     // more samples of the plan `random` are the same study
     ld_study_counts counts = study_run(more, "one", 2);
@@ -294,9 +294,8 @@ static void merge_beside_a_reader(void)
     assert_null(read_meanwhile);
     const study_store none = {0};
     assert_int_equal(store_fail_by(&none, SQLITE_BUSY, "study.db", "write", &error), LD_ERR_FILE);
-    assert_string_equal(error.text,
-                        "cannot write study.db: another program has been reading or writing it all "
-                        "the time; end that, or let it close the study, and do this again");
+    assert_string_equal(error.text, "cannot write study.db: another program is reading or writing "
+                                    "it; wait until it closes the study, then repeat");
 }
 
 // Parts of a study, run in any order and joined, are the study.
@@ -310,7 +309,7 @@ static void test_shards(void **state)
     assert_int_equal(run_shard(study, 1, 3, &counts, three_more, count), LD_ERR_INTERRUPTED);
     expect_merge("shards", LD_OK, "11 of 24 samples");
     expect_merge("shards", LD_OK, "shard 1 of 3 lacks 5 of its 8 samples");
-    expect_merge("shards", LD_OK, "not there: shard 2 of 3");
+    expect_merge("shards", LD_OK, "missing: shard 2 of 3");
     assert_int_equal(run_shard(study, 1, 3, &counts, NULL, NULL), LD_OK);
     assert_true(counts.now == 5);
     expect_merge("shards", LD_OK, "16 of 24 samples");
@@ -374,7 +373,7 @@ static void test_failures(void **state)
     ld_error error;
     assert_int_equal(ld_study_show(in("failures"), NULL, stream, &error), LD_OK);
     fclose(stream);
-    assert_non_null(strstr(shown, "the lock never let go"));
+    assert_non_null(strstr(shown, "the lock never released"));
     free(csv);
     free(shown);
     ld_study_free(study);
@@ -450,7 +449,7 @@ static void test_rockets_of_a_salvo(void **state)
     ld_simulation_free(simulation);
     const ld_rocket_summary *a = &alone.rocket[0], *b = &salvo.rocket[1], *c = &salvo.rocket[0];
     CHECK_BELOW("t_rear in the salvo and alone [s]", a->t_rear - b->t_rear, 1e-9);
-    CHECK_BELOW("muzzle speed [m/s]", a->muzzle_speed - b->muzzle_speed, 1e-6);
+    CHECK_BELOW("exit speed [m/s]", a->muzzle_speed - b->muzzle_speed, 1e-6);
     CHECK_BELOW("yaw rate [rad/s]", a->yaw_rate - b->yaw_rate, 1e-6);
     CHECK_WITHIN("t_rear of the first rocket differs [s]", fabs(c->t_rear - b->t_rear), 1e-4, 0.1);
     ld_sample_free(sample);

@@ -226,7 +226,7 @@ static void test_refusals(void **state)
     mkdir(in("empty"), 0777);
     run_sql(in("empty/study.db"), "CREATE TABLE study (name TEXT PRIMARY KEY, value TEXT);");
     assert_int_equal(study_data_open(in("empty"), &data, &error), LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "holds no study"));
+    assert_non_null(strstr(error.text, "contains no study"));
 }
 
 int main(void)

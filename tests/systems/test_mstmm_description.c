@@ -61,9 +61,8 @@ static void test_bad_descriptions(void **state)
     e[2].mass = NAN;
     refused(e, 3, "element 'c': a value is not finite");
     e[2] = body("c", "b");
-    const char *const no_body =
-        "element 'c': its inertia is that of no body (each principal moment "
-        "must be positive or 0 and none above the sum of the other two)";
+    const char *const no_body = "element 'c': its inertia is impossible (each principal moment "
+                                "must be positive or 0 and none above the sum of the other two)";
     e[2].inertia[1] = -0.2;
     refused(e, 3, no_body);
     e[2].inertia[1] = 0.5;

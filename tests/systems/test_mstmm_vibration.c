@@ -50,7 +50,7 @@ static void test_double_pendulum(void **state)
     }
     q[0] = 0.1;
     assert_int_equal(ld_mstmm_vibration(system, q, NULL, mode, NULL, &count, &error), LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "no equilibrium"));
+    assert_non_null(strstr(error.text, "not an equilibrium"));
     ld_mstmm_free(system);
 }
 

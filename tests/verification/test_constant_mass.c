@@ -43,7 +43,7 @@ static void limit_of_little_propellant(void **state)
     // same way, less where the thrust has to build up first
     double change = (run_of(one, 3, &gramme).muzzle_speed - speed) / speed;
     double burnt = none.rocket[0].t_rear / 2.53;
-    printf("    muzzle speed %.9f m/s, a gramme changes it by %.3g\n", speed, change);
+    printf("    exit speed %.9f m/s, a gramme changes it by %.3g\n", speed, change);
     CHECK_WITHIN("of a gramme, over a third of its burnt share", change / (burnt / 3 * 1e-3 / 60),
                  0.97, 1);
     double less = (run_of(little, 3, &tenth).muzzle_speed - speed) / speed;

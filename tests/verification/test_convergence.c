@@ -23,7 +23,7 @@ static ld_summary launch(const ld_model *model)
 // What a user reads, and how far two launches differ in it.
 typedef struct muzzle {
     double instant;  // [s] largest of t_release, t_front, t_middle, t_rear
-    double speed;    // [m/s] muzzle speed
+    double speed;    // [m/s] exit speed
     double rates[3]; // [rad/s] pitch rate, yaw rate, spin
     double angle;    // [rad] pitch, yaw
 } muzzle;
@@ -104,7 +104,7 @@ static void spans_converge_in_bending(void **state)
         model.tubes.modes.bending = modes[k];
         muzzle worst = compare_spans(&model, &truth);
         CHECK_BELOW("instants [s]", worst.instant, instant[k]);
-        CHECK_BELOW("muzzle speed [m/s]", worst.speed, speed[k]);
+        CHECK_BELOW("exit speed [m/s]", worst.speed, speed[k]);
         CHECK_BELOW("pitch rate [rad/s]", worst.rates[0], rate[k]);
         CHECK_BELOW("yaw rate [rad/s]", worst.rates[1], rate[k]);
         CHECK_BELOW("spin [rad/s]", worst.rates[2], 2e-3);
@@ -164,7 +164,7 @@ static void defaults_are_converged(void **state)
         muzzle d = difference(&usual, &truth);
         print_row(names[i], (int)usual.statistics.steps, &d);
         CHECK_BELOW("instants [s]", d.instant, 4e-8);
-        CHECK_BELOW("muzzle speed [m/s]", d.speed, 1e-5);
+        CHECK_BELOW("exit speed [m/s]", d.speed, 1e-5);
         CHECK_BELOW("pitch rate [rad/s]", d.rates[0], 2e-4);
         CHECK_BELOW("yaw rate [rad/s]", d.rates[1], 2e-4);
         CHECK_BELOW("spin [rad/s]", d.rates[2], 2.5e-3);
@@ -224,7 +224,7 @@ static void check_tolerances(ld_model *model, const tolerance_bounds *bound)
         snprintf(name, sizeof name, "%.0e", tolerances[i]);
         print_row(name, (int)launch(model).statistics.steps, &d);
         CHECK_BELOW("instants [s]", d.instant, bound->instant[i]);
-        CHECK_BELOW("muzzle speed [m/s]", d.speed, bound->speed[i]);
+        CHECK_BELOW("exit speed [m/s]", d.speed, bound->speed[i]);
         CHECK_BELOW("pitch and yaw rate [rad/s]", fmax(d.rates[0], d.rates[1]), bound->rate[i]);
         CHECK_BELOW("spin [rad/s]", d.rates[2], bound->spin[i]);
     }

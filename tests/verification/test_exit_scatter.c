@@ -297,10 +297,10 @@ static void what_there_is_not_is_told(void **state)
                         "unknown result of a launch \"pich_rate\", did you mean \"pitch_rate\"?");
     assert_int_equal(ld_response_exit(response, SPEED, 0, &range, 1, &mean, &deviation, &error),
                      LD_ERR_INPUT);
-    assert_string_equal(error.text, "\"range\" comes of the flight: it is none of the exit");
+    assert_string_equal(error.text, "\"range\" is a result of the flight, not of the exit");
     assert_int_equal(ld_response_exit(response, SPEED, 1, &name, 1, &mean, &deviation, &error),
                      LD_ERR_INPUT);
-    assert_string_equal(error.text, "1 draws: there are 2 or more, or 0: none");
+    assert_string_equal(error.text, "found 1 draws, expected 0 (none) or at least 2");
     assert_int_equal(ld_response_exit(response, 0, 0, &name, 1, &mean, &deviation, &error),
                      LD_ERR_INPUT);
     ld_response_free(response);

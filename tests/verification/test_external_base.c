@@ -405,34 +405,34 @@ static void what_makes_no_frame_is_refused(void **state)
     ld_model model = told_model(&still, LD_EXTRAPOLATION_ACCELERATION);
     ld_simulation *simulation = create(&model);
     fails(ld_simulation_run(simulation, NULL, &summary, &error), &error,
-          "base.kind: external: nobody tells where the base is; a program does that, from the "
-          "start on and step by step");
+          "base.kind: external: this base is driven by a program that steps the run; the command "
+          "cannot run it");
     bad.velocity[1] = NAN;
     fails(ld_run_begin(simulation, &(ld_run_options){.base = &bad}, &run, &error), &error,
-          "the base is told a place or a motion that is not finite");
+          "the base received a position or a motion that is not finite");
     ld_run_end(run, NULL, NULL);
 
     run = begin(simulation, &frame);
     assert_int_equal(ld_run_advance(run, -0.1, &error), LD_OK);
     fails(ld_run_tell_base(run, &bad, &error), &error,
-          "the base is told a place or a motion that is not finite");
+          "the base received a position or a motion that is not finite");
     bad = frame;
     bad.quaternion[0] *= 1.1;
     assert_int_equal(ld_run_tell_base(run, &bad, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "the base is told a quaternion of length 1.09"));
     fails(ld_run_advance(run, -0.15, &error), &error,
-          "the run stands at t = -0.1 s and cannot go on to t = -0.15 s");
+          "the run is at t = -0.1 s and cannot continue to t = -0.15 s");
     // it goes on all the same
     assert_int_equal(ld_run_tell_base(run, &frame, &error), LD_OK);
     assert_int_equal(ld_run_advance(run, INFINITY, &error), LD_OK);
     fails(ld_run_tell_base(run, &frame, &error), &error,
-          "the launch is over, the base is told nothing more");
+          "the launch is over: the base's motion can no longer be set");
     end(run);
     ld_simulation_free(simulation);
 
     simulation = create(&still.model);
     fails(ld_run_begin(simulation, &(ld_run_options){.base = &frame}, &run, &error), &error,
-          "the base is told where it is, which goes with base.kind: external alone");
+          "the base's motion can be set with base.kind: external only");
     ld_run_end(run, NULL, NULL);
     ld_simulation_free(simulation);
     forget(&still);

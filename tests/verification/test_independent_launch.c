@@ -279,7 +279,7 @@ static void compare(const ld_model *model, const ld_summary *summary, const dens
         CHECK_BELOW("release [s]", rocket->t_release - dense->t_release, bound->instant);
     CHECK_BELOW("front, middle, rear [s]", largest(3, &rocket->t_front, &dense->t_front),
                 bound->instant);
-    CHECK_BELOW("muzzle speed [m/s]", rocket->muzzle_speed - dense->muzzle_speed, bound->speed);
+    CHECK_BELOW("exit speed [m/s]", rocket->muzzle_speed - dense->muzzle_speed, bound->speed);
     CHECK_BELOW("inertial speed [m/s]", rocket->inertial_speed - dense->inertial_speed,
                 bound->speed);
     CHECK_BELOW("pitch, yaw [rad]", largest(2, &rocket->pitch, &dense->pitch), bound->attitude);

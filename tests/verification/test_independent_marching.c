@@ -280,7 +280,7 @@ static void compare_rocket(const ld_rocket_summary *rocket, const dense_summary 
     printf("   rocket at the exit\n");
     CHECK_BELOW("release, front, middle, rear [s]",
                 largest(4, &rocket->t_release, &dense->t_release), bound->instant);
-    CHECK_BELOW("muzzle speed, inertial speed [m/s]",
+    CHECK_BELOW("exit speed, inertial speed [m/s]",
                 largest(2, &rocket->muzzle_speed, &dense->muzzle_speed), bound->muzzle);
     CHECK_BELOW("pitch, yaw [rad]", largest(2, &rocket->pitch, &dense->pitch), bound->attitude);
     CHECK_BELOW("pitch and yaw rate, spin [rad/s]",

@@ -123,7 +123,7 @@ static void test_lesser(void **state)
         ld_summary summary = summary_of_run(&model);
         assert_int_equal(summary.note_count, i == 0);
         if (i == 0)
-            assert_non_null(strstr(summary.note[0], "brakes less"));
+            assert_non_null(strstr(summary.note[0], "the drag falls"));
         model_clear(&model);
     }
 }

@@ -169,7 +169,8 @@ static void lock_lets_go(void **state)
             assert_int_equal(ld_simulation_create(&model, &simulation, &error), LD_OK);
             model.run.stuck_time = 0.1;
             assert_int_equal(ld_simulation_run(simulation, NULL, &summary, &error), LD_ERR_LAUNCH);
-            assert_non_null(strstr(error.text, "the lock never let go: it carried at most 21382"));
+            assert_non_null(
+                strstr(error.text, "the lock never released: it carried at most 21382"));
             ld_simulation_free(simulation);
         } else {
             double release = i == 1 ? 0 : 0.01 * 5e3 / (1e6 * bore_area(&model));
@@ -249,7 +250,7 @@ static void rests_in_battery(void **state)
                                  : (weight - 100) / slide->stiffness;
         double found = recorded_value(&run, 0, recorded_column(&run, "recoil.1.travel"));
         // a support that turns takes a little
-        CHECK_BELOW("way back at rest, relative", found / expected - 1, 1e-3);
+        CHECK_BELOW("travel back at rest, relative", found / expected - 1, 1e-3);
         CHECK_BELOW("force [N], relative",
                     recorded_value(&run, 0, recorded_column(&run, "recoil.1.force")) / weight - 1,
                     1e-3);

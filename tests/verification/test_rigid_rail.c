@@ -116,7 +116,7 @@ static void pitching_in_wind(ld_model *model)
 enum { RELEASE, FRONT, REAR, SPEED, PITCH, YAW, PITCH_RATE, YAW_RATE, SPIN, FIGURES };
 
 static const char *const figure_name[FIGURES] = {
-    "t_release [s]", "t_front [s]",        "t_rear [s]",       "muzzle speed [m/s]", "pitch [rad]",
+    "t_release [s]", "t_front [s]",        "t_rear [s]",       "exit speed [m/s]", "pitch [rad]",
     "yaw [rad]",     "pitch rate [rad/s]", "yaw rate [rad/s]", "spin [rad/s]"};
 
 static void launch(const ld_model *model, double figure[FIGURES])

@@ -237,7 +237,7 @@ static void rests_in_two_ways(void **state)
         assert_int_equal(rest->rests_elsewhere, k == 0);
         bool noted = false;
         for (int i = 0; i < summary.note_count; i++)
-            noted = noted || strstr(summary.note[i], "two rests");
+            noted = noted || strstr(summary.note[i], "two equilibria");
         assert_int_equal(noted, k == 0);
         if (k == 0) // front shoe on one rail, rear on that across: gaps of 0.5 mm at 45 deg
             for (int i = 1; i < 4; i += 2) {
@@ -517,7 +517,7 @@ static void rails_are_the_bore(void **state)
     ld_summary left[2] = {summary_of_run(&bore), summary_of_run(&rails)};
     CHECK_BELOW("pitch rate at the exit, relative",
                 left[1].rocket[0].pitch_rate / left[0].rocket[0].pitch_rate - 1, 1e-6);
-    CHECK_BELOW("muzzle speed, relative",
+    CHECK_BELOW("exit speed, relative",
                 left[1].rocket[0].muzzle_speed / left[0].rocket[0].muzzle_speed - 1, 1e-9);
     reference_model_free(&bore);
     reference_model_free(&rails);

@@ -178,7 +178,7 @@ static void platform_motion_gives_the_launch(void **state)
                  4.5);
     CHECK_BELOW("rows every 0.625 ms: pitch, yaw [rad]", d[0].angle, 8e-9);
     CHECK_BELOW("instants [s]", d[0].instant, 2e-7);
-    CHECK_BELOW("muzzle speed [m/s]", d[0].speed, 4e-7);
+    CHECK_BELOW("exit speed [m/s]", d[0].speed, 4e-7);
     // what the reaction of the launch does to the platform, and so to the launch
     recorded.rocket.motor.thrust_scale = 1e-9;
     recorded_run_make(&idle, &recorded);

@@ -297,8 +297,8 @@ ld_status tube_line_build(tube_line *line, line_kind kind, int plane, const tube
     ld_status status = check_mass(line, model, error);
     if (!status && !(trace > 0 && isfinite(trace)))
         status = ld_fail(error, LD_ERR_NUMERIC,
-                         "the modes of the clamped tube cannot be found: is a stiffness or a mass "
-                         "not finite or out of all proportion?");
+                         "the modes of the clamped tube cannot be computed: check that stiffnesses "
+                         "and masses are finite and in proportion");
     if (status)
         tube_line_free(line);
     return status;

@@ -203,7 +203,7 @@ static ld_status check_model(const ld_tubes *model, ld_error *error)
     if (modes->bending < 1 || modes->bending > LD_NB || modes->torsion < 0 ||
         modes->torsion > LD_NT || modes->axial < 0 || modes->axial > LD_NA)
         return ld_fail(error, LD_ERR_INPUT,
-                       "a tube has 1 to %d bending, 0 to %d torsion and 0 to %d axial modes, not "
+                       "expected 1 to %d bending, 0 to %d torsion and 0 to %d axial modes, found "
                        "%d, %d and %d",
                        LD_NB, LD_NT, LD_NA, modes->bending, modes->torsion, modes->axial);
     if (modes->elements < 1 || !(model->length > 0) || model->section_count < 1)

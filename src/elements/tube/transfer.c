@@ -81,7 +81,8 @@ ld_status flexible_body_transfer(transfer_matrix *U, const flexible_body *body, 
     double G[N * N], X_I[6][N], X_O[6][N], load[2][N] = {{0}};
     int n = body->n;
     if (n > N)
-        return ld_fail(error, LD_ERR_INPUT, "a flexible element has %d speeds, at most %d", n, N);
+        return ld_fail(error, LD_ERR_INPUT,
+                       "a flexible element has %d speeds; at most %d are allowed", n, N);
     memcpy(G, body->M, (size_t)(n * n) * sizeof *G);
     if (cholesky_factor(n, G))
         return ld_fail(error, LD_ERR_NUMERIC,

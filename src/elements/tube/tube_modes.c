@@ -244,8 +244,8 @@ ld_status tied_line_solve(const tied_line *self, int wanted, double *vector, dou
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", N);
     if (info || !(lambda[0] > 0))
         return ld_fail(error, LD_ERR_NUMERIC,
-                       "the modes of the tube on its supports cannot be found: is a stiffness or "
-                       "a mass not finite or out of all proportion?");
+                       "the modes of the tube on its supports cannot be computed: check that "
+                       "stiffnesses and masses are finite and in proportion");
     for (int k = 0; k < wanted; k++)
         lambda[k] = fmax(0, 1 / lambda[k] - line->low);
     return LD_OK;
@@ -325,8 +325,8 @@ static ld_status add_clamped_modes(const tied_line *self, int m, elastic_modes *
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %d modes", n);
     if (info)
         return ld_fail(error, LD_ERR_NUMERIC,
-                       "the modes of the clamped tube cannot be found: is a stiffness or a mass "
-                       "not finite or out of all proportion?");
+                       "the modes of the clamped tube cannot be computed: check that stiffnesses "
+                       "and masses are finite and in proportion");
     return LD_OK;
 }
 
@@ -417,7 +417,7 @@ static ld_status choose(line_shapes *shapes, const tube_line *line, const ld_tub
         return status;
     if (modes->count < m)
         return ld_fail(error, LD_ERR_INPUT,
-                       "only %d of %d modes are independent: take fewer modes or more elements",
+                       "only %d of %d modes are independent: use fewer modes or more elements",
                        modes->count, m);
     double *own = calloc((size_t)m * (size_t)line->n, sizeof *own);
     if (!own)

@@ -13,7 +13,7 @@ void concatenate(size_t size, char *text, size_t size_a, const char *a, size_t s
 void wrong_argument(const char *routine, const int *number, size_t length)
 {
     (void)routine, (void)number, (void)length;
-    assert(!"LAPACK was given a wrong argument");
+    assert(!"LAPACK received a wrong argument");
 }
 
 // text = a // b, filled up with blanks or cut to its size, like every text of Fortran.

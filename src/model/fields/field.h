@@ -165,7 +165,7 @@ const table_format *field_table_format(const table_format *format, size_t column
 double *field_clock(void *base, const field_row *field);
 // Whether four numbers are a unit quaternion as measured ones are, to 0.01.
 bool field_is_unit(const double quaternion[4]);
-#define NO_UNIT_QUATERNION "the last four numbers are no unit quaternion: off by more than 0.01"
+#define NO_UNIT_QUATERNION "the last four numbers are not a unit quaternion, within 0.01"
 
 // A number of a model: any scalar key or component.
 typedef struct field_place {

@@ -85,7 +85,7 @@ static bool take_number(walk *w, const field_row *f)
     w->place->row = f;
     w->place->whole = f->kind == FIELD_INTEGER;
     if (f->kind == FIELD_CHOICE && word_in_place(f, *(const int *)(base + f->offset)))
-        return refuse(w, "%s is no number in this scenario", w->place->path);
+        return refuse(w, "%s is not a number in this scenario", w->place->path);
     if (f->kind == FIELD_NUMBER && f->count > 1) {
         const char *first = names + 4 - f->count;
         if (!next_key(w))
@@ -129,7 +129,7 @@ static bool enter_list(walk *w, const field_row *f)
     int count = field_switch(w->base, f), chosen = -1;
     if (!next_key(w))
         return refuse(w, "%s is a list: name one of its members%s", w->place->path,
-                      count ? ", or give its number from 1" : ", of which it has none");
+                      count ? ", or give its number from 1" : "; it has none");
     name_suggestion best = suggestion_begin(w->key);
     for (int i = 0; i < count && chosen < 0; i++) {
         const char *name = entry_name(f, field_entry_const(w->base, f, i));
@@ -204,10 +204,10 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
             return take_number(&w, f);
         bool study = w.block == &scenario_block &&
                      (strcmp(f->name, "scatter") == 0 || strcmp(f->name, "sweep") == 0);
-        bool inside = study                    ? refuse(&w, "the study itself is not scattered")
+        bool inside = study ? refuse(&w, "keys of the study itself cannot be uncertain")
                       : f->kind == FIELD_BLOCK ? enter_block(&w, f)
                       : f->kind == FIELD_LIST  ? enter_list(&w, f)
-                                               : refuse(&w, "%s is no number", place->path);
+                                               : refuse(&w, "%s is not a number", place->path);
         if (!inside)
             return false;
     }
@@ -307,7 +307,7 @@ static bool go_together(const ld_model *model, const ld_factor *factor, const fi
         if (strcmp(unit, own) != 0 || place.whole != first->whole)
             text = "are not of one kind";
         else if (is_about_nominal(factor) && field_get(model, &place) != field_get(model, first))
-            text = "have not the same value in the scenario, about which to scatter";
+            text = "do not have the same nominal value in the scenario";
         if (text) {
             snprintf(why, size, "%s and %s %s", first->path, place.path, text);
             return false;
@@ -329,14 +329,14 @@ static bool goes_with(const ld_model *model, const ld_factor *factor, const fiel
     else if (!place->whole && (row->traits & LD_SEED))
         text = "{each: sample} is for whole numbers, such as seeds";
     else if (factor->per_rocket && !factor_may_be_per_rocket(factor))
-        text = "only what is below rocket can be drawn per rocket";
+        text = "only keys below rocket can be sampled per rocket";
     else if (about && !isfinite(nominal))
-        text = "has no value in this scenario about which to scatter";
+        text = "has no nominal value in this scenario";
     else if ((row->traits & LD_ABOVE_ZERO) && nominal <= 0)
-        text = "a %s distribution needs a value > 0 in the scenario";
+        text = "a %s distribution requires a nominal value > 0";
     else if ((row->traits & LD_BOUNDED) && !isnan(factor->between[0]) &&
              !has_values_between(factor, nominal))
-        text = "so far from the value in the scenario a %s distribution has nothing to keep";
+        text = "a %s distribution has no values so far from the nominal value";
     if (text)
         snprintf(why, size, text, row->word);
     return !text;
@@ -377,7 +377,7 @@ static const char *wrong_with_matrix(const ld_correlated *group)
             if (c != group->matrix[k][i])
                 return "must be symmetric";
             if (!(fabs(c) <= 1))
-                return "holds what is no number from -1 to 1";
+                return "has an entry that is not a number from -1 to 1";
         }
     double lower[LD_MAX_CORRELATED][LD_MAX_CORRELATED];
     return correlated_factorise(group, lower) ? NULL : "is not positive definite";
@@ -393,13 +393,13 @@ bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *grou
         for (const ld_correlated *g = scatter->correlated; g <= group; g++)
             for (int k = 0; k < (g == group ? i : g->count); k++)
                 again = again || g->factor[k] == group->factor[i];
-        const char *text = again ? "is in a group already"
-                           : distribution_of(own->distribution)->traits & LD_SEED
-                               ? "is a seed, which depends on nothing"
-                           : own->per_rocket != first->per_rocket
-                               ? "is not drawn as the first of its group, for every rocket or for "
-                                 "the sample"
-                               : NULL;
+        const char *text =
+            again ? "is in a group already"
+            : distribution_of(own->distribution)->traits & LD_SEED
+                ? "is a seed, which cannot be correlated"
+            : own->per_rocket != first->per_rocket
+                ? "is not sampled as the first of its group, per rocket or per sample"
+                : NULL;
         if (text) {
             snprintf(why, size, "%s %s", own->path, text);
             return false;

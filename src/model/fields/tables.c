@@ -851,7 +851,7 @@ static const field_row recoil_fields[] = {
     {"preload", NUMBER(ld_recoil, preload, "N"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "force towards battery from which on the tube gives way"},
     {"stiffness", NUMBER(ld_recoil, stiffness, "N/m"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "by which that force grows with the way back"},
+     .doc = "by which that force grows with the travel back"},
     {"damping", NUMBER(ld_recoil, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "force over speed"},
     {"quadratic_damping", NUMBER(ld_recoil, quadratic_damping, "N.s2/m2"), NOT_NEGATIVE, DEFAULT(0),
@@ -861,7 +861,7 @@ static const field_row recoil_fields[] = {
     {"friction_speed", NUMBER(ld_recoil, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
      .doc = "speed at which that is at 71 %"},
     {"stroke", NUMBER(ld_recoil, stroke, "m"), ABOVE_TO(0, 100), NO_DEFAULT("no stop behind"),
-     .doc = "way back at which a stop like that in battery begins"},
+     .doc = "travel back at which a stop like that in battery begins"},
     {0}};
 static const field_block recoil_block = {.fields = recoil_fields};
 static const field_word recoil_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};

@@ -70,7 +70,7 @@ static void check_choice(model_checker *checker, const key_path *path, const fie
     memcpy(&value, field_at_const(base, f), sizeof value);
     const field_word *word = field_word_of(f->words, value);
     if (!word)
-        refuse(checker, path, "no value of this choice");
+        refuse(checker, path, "not a value of this choice");
     else if (!word->name[0])
         check_number(checker, path, f, *(const double *)((const char *)base + f->other));
 }
@@ -118,7 +118,7 @@ static void check_table(model_checker *checker, const key_path *path, const fiel
         return;
     const table_format *format = field_table_format(f->table, table->columns);
     if (!format) {
-        refuse(checker, path, "has not the columns that it must have");
+        refuse(checker, path, "does not have the required columns");
         return;
     }
     for (size_t i = 0; i < table->rows; i++)
@@ -234,7 +234,7 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
         for (unsigned left = *(const unsigned *)field_at_const(base, f), bit = 0; left;
              left >>= 1, bit++)
             if (left & 1u && !field_word_of(f->words, (int)bit)) {
-                refuse(checker, path, "no value of this choice");
+                refuse(checker, path, "not a value of this choice");
                 break;
             }
         break;
@@ -243,7 +243,7 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
         break;
     case FIELD_BLOCK:
         if (f->words && !field_word_of(f->words, field_switch(base, f)))
-            refuse(checker, path, "no value of this choice");
+            refuse(checker, path, "not a value of this choice");
         else if (!f->words || !field_word_of(f->words, field_switch(base, f))->name[0])
             check_block(checker, path, f->block, field_at_const(base, f));
         break;
@@ -258,11 +258,11 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
         break;
     case FIELD_WORD:
         if (!memchr(field_at_const(base, f), '\0', LD_MAX_NAME))
-            refuse(checker, path, "not ended by a zero");
+            refuse(checker, path, "not terminated by a zero");
         break;
     case FIELD_QUANTITY:
         if (!memchr(field_at_const(base, f), '\0', LD_MAX_QUANTITY))
-            refuse(checker, path, "not ended by a zero");
+            refuse(checker, path, "not terminated by a zero");
         break;
     case FIELD_FACTORS:
     case FIELD_CORRELATED:
@@ -283,7 +283,7 @@ static void check_block(model_checker *checker, const key_path *path, const fiel
 {
     int form = field_form(block, base);
     if (block->form && (form < 0 || !field_word_of(block->form, form))) {
-        refuse(checker, path, "no value of this choice");
+        refuse(checker, path, "not a value of this choice");
         return;
     }
     for (const field_row *f = block->fields; f->name; f++)

@@ -30,8 +30,8 @@ void inertia_rule(const rule_set *rules, const char *path, const double J[3],
     for (int i = 0; i < 3; i++)
         if (p[i] < 0) {
             broken(rules, path, 0,
-                   "the moment about %c, %g kg.m2, exceeds the sum of the two others, which no "
-                   "body can have",
+                   "the moment about %c, %g kg.m2, exceeds the sum of the two others, which is "
+                   "impossible",
                    "xyz"[i], J[i]);
             return;
         }
@@ -43,8 +43,7 @@ void inertia_rule(const rule_set *rules, const char *path, const double J[3],
         p[0] * (p[1] * p[2] - yz * yz) - xy * (xy * p[2] - yz * xz) + xz * (xy * yz - p[1] * xz);
     if (p[0] * p[1] < xy * xy || p[0] * p[2] < xz * xz || p[1] * p[2] < yz * yz || determinant < 0)
         broken(rules, "rocket.products_of_inertia", 0,
-               "too large beside %s = %g %g %g kg.m2; no body can have them", path, J[0], J[1],
-               J[2]);
+               "too large for %s = %g %g %g kg.m2; that is impossible", path, J[0], J[1], J[2]);
 }
 
 void rising_rule(const rule_set *rules, const char *path, const ld_table *table, const char *unit,
@@ -56,7 +55,6 @@ void rising_rule(const rule_set *rules, const char *path, const ld_table *table,
             broken(rules, path, (int)i + 1, "%g %s does not come after %g %s in the row before", x,
                    unit, before, unit);
         else if (jumps && i > 1 && x == before && x == table->data[(i - 2) * table->columns])
-            broken(rules, path, (int)i + 1, "%g %s stands there a third time; twice is a jump", x,
-                   unit);
+            broken(rules, path, (int)i + 1, "%g %s occurs a third time; twice is a jump", x, unit);
     }
 }

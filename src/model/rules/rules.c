@@ -26,11 +26,11 @@ static void load_rules(const rule_set *rules)
         station_rule(rules, "tubes.loads.#.at", i + 1, at);
         if (!isnan(tubes->station[i].outer_fibre[0]) && isnan(tubes->material.youngs_modulus))
             broken(rules, "tubes.loads.#.outer_fibre", i + 1,
-                   "goes with tubes.material.youngs_modulus, by which strain becomes stress");
+                   "requires tubes.material.youngs_modulus, for the stress");
         for (int k = 0; k < i; k++)
             if (tubes->station[k].at == at)
-                broken(rules, "tubes.loads.#.at", i + 1, "%g m is that of entry %d already", at,
-                       k + 1);
+                broken(rules, "tubes.loads.#.at", i + 1, "%g m is the station of entry %d already",
+                       at, k + 1);
     }
 }
 
@@ -96,7 +96,7 @@ static void derived_rules(const rule_set *rules)
         for (int k = 0; k < 6 && has_wall; k++)
             if (value[k] < 1e-100 || value[k] > 1e100) {
                 broken(rules, "tubes.sections.#", i + 1,
-                       "its stiffnesses or masses come out as %g, beyond all reason", value[k]);
+                       "its stiffnesses or masses come out as %g, out of range", value[k]);
                 break;
             }
     }
@@ -196,17 +196,15 @@ static void clamped_rule(const rule_set *rules, int i)
         broken(rules, "tubes.supports.#.stiffness", i + 1,
                "missing; expected three numbers and one unit of N/m, >= 0 N/m");
     if (support->clamped && model_has_vehicle(rules->model))
-        broken(
-            rules, "tubes.supports.#.clamped", i + 1,
-            "goes with a base that goes where it is told; of a vehicle's platform the tube knows "
-            "no acceleration: give stiff springs");
+        broken(rules, "tubes.supports.#.clamped", i + 1,
+               "requires a base other than a vehicle; on a vehicle use stiff springs");
     if (support->clamped && rules->model->run.formulation == LD_FORMULATION_OVERALL)
         broken(rules, "tubes.supports.#.clamped", i + 1,
-               "goes with run.formulation: reduced; the overall form has springs alone");
+               "requires run.formulation: reduced; the overall form has springs only");
     for (int k = 0; k < i && support->clamped; k++)
         if (support[k - i].clamped && support[k - i].at == support->at)
             broken(rules, "tubes.supports.#.clamped", i + 1,
-                   "support %d holds the station at %g m already", k + 1, support->at);
+                   "support %d is at the station %g m already", k + 1, support->at);
 }
 
 // Directions held rigidly must be fewer than what tube and modes can follow.
@@ -269,11 +267,11 @@ static void recoil_rules(const rule_set *rules)
                    "this support clamps x, along which the tube would recoil");
         else if (support_spring(support, LD_CLAMP_X) == 0)
             broken(rules, "tubes.supports.#.stiffness", i + 1,
-                   "0 N/m along x, where the stops of its recoil need it");
+                   "0 N/m along x, which the stops of its recoil require");
         if (holds)
             broken(rules, "tubes.supports.#.recoil", i + 1,
-                   "support %d holds the tube along x; give that no stiffness there, or a recoil "
-                   "too",
+                   "support %d holds the tube along x; remove its stiffness there, or give it a "
+                   "recoil too",
                    holds);
     }
 }
@@ -339,7 +337,7 @@ static void table_of_masses_rows(const rule_set *rules, const ld_table *table)
         }
         ld_mass_data now = masses_at(rocket, k);
         if (now.mass <= 0) {
-            broken(rules, path, (int)k + 1, "leaves nothing of the rocket");
+            broken(rules, path, (int)k + 1, "leaves no mass of the rocket");
             return;
         }
         if (now.inertia[0] <= 0 || now.inertia[1] <= 0 || now.inertia[2] <= 0) {
@@ -363,14 +361,13 @@ static void table_of_masses_rules(const rule_set *rules)
     if (!model->completed.empty_mass || !model->completed.empty_center[0] ||
         !model->completed.empty_inertia[0])
         broken(rules, "rocket.empty", 0,
-               "given together with motor.masses, whose last row says it; give one of them");
+               "given together with motor.masses, whose last row sets it; give one of them");
     if (!model->completed.propellant)
         broken(rules, "rocket.propellant", 0,
-               "given together with motor.masses, which says it; give one of them");
+               "given together with motor.masses, which sets it; give one of them");
     if (last[MASSES_TIME] > end)
         broken(rules, path, 0,
-               "ends at %g s, after the thrust, at %g s; let the thrust have a last row of 0 N "
-               "there",
+               "ends at %g s, after the thrust, at %g s; give the thrust a last row of 0 N there",
                last[MASSES_TIME], end);
     if (table->data[MASSES_MASS] > model->rocket.full.mass * (1 + 1e-9))
         broken(rules, "rocket.motor.masses.1", 0, "%g kg is more than the whole rocket, of %g kg",
@@ -387,7 +384,7 @@ static void mass_rules(const rule_set *rules)
         broken(rules, "rocket.empty.mass", 0, "%g kg is more than the full mass, %g kg",
                rocket->empty.mass, rocket->full.mass);
     if (rocket->empty.mass + rocket->mass_error <= 0 && (rocket->empty.mass > 0 || !by_table))
-        broken(rules, "rocket.mass_error", 0, "%g kg leaves nothing of the empty mass, %g kg",
+        broken(rules, "rocket.mass_error", 0, "%g kg leaves no empty mass of %g kg",
                rocket->mass_error, rocket->empty.mass);
     if (rocket->propellant >= rocket->full.mass + rocket->mass_error && !by_table)
         broken(rules, "rocket.propellant", 0,
@@ -408,10 +405,10 @@ static void adaptor_rules(const rule_set *rules)
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         if (i == 0 && adaptor->at > 0)
             broken(rules, "rocket.adaptors.1.at", 0,
-                   "%g m; the first adaptor is the rear one and stands at 0 m", adaptor->at);
+                   "%g m; the first adaptor is the rear one, at 0 m", adaptor->at);
         for (int j = 0; j < i; j++)
             if (adaptor->at == rocket->adaptor[j].at)
-                broken(rules, "rocket.adaptors.#.at", i + 1, "%g m is where adaptor %d stands",
+                broken(rules, "rocket.adaptors.#.at", i + 1, "%g m is the position of adaptor %d",
                        adaptor->at, j + 1);
         for (int j = 0; j < i; j++) {
             // a study's database does not tell capital letters from others in a column's name
@@ -432,15 +429,14 @@ static void held_rules(const rule_set *rules)
     const ld_rocket *rocket = &rules->model->rocket;
     if (rocket->adaptor_count > 2)
         broken(rules, "rocket.contact.law", 0,
-               "ideal holds at most two adaptors on the axis, which a rigid rocket follows; here "
-               "are %d",
+               "ideal holds at most two adaptors on the axis; this rocket has %d",
                rocket->adaptor_count);
     if (rocket->contact.friction > 0)
         broken(rules, "rocket.contact.friction", 0,
                "%g; adaptors of the law ideal are held without friction", rocket->contact.friction);
     if (!rocket->lock.present && isnan(rocket->contact.stiffness))
         broken(rules, "rocket.contact.stiffness", 0,
-               "missing; without a lock the breech bears the rocket, with this stiffness");
+               "missing; without a lock the breech supports the rocket with this stiffness");
 }
 
 static void contact_rules(const rule_set *rules)
@@ -459,7 +455,7 @@ static void contact_rules(const rule_set *rules)
                contact->exponent);
     if (!linear && contact->damping > 0)
         broken(rules, "rocket.contact.damping", 0,
-               "goes with the laws kelvin-voigt and bilateral; this law damps by its restitution");
+               "requires the law kelvin-voigt or bilateral; this law damps by its restitution");
 }
 
 static void thrust_rules(const rule_set *rules)
@@ -487,8 +483,7 @@ static void thrust_rules(const rule_set *rules)
     if (impulse == 0)
         broken(rules, "rocket.motor.thrust", 0, "its impulse is 0 N.s");
     if (impulse > 1e100)
-        broken(rules, "rocket.motor.thrust", 0, "its impulse is %g N.s, beyond all reason",
-               impulse);
+        broken(rules, "rocket.motor.thrust", 0, "its impulse is %g N.s, out of range", impulse);
 }
 
 static void over_time_rules(const rule_set *rules)
@@ -516,7 +511,7 @@ static void over_travel_rules(const rule_set *rules)
                table->data[0]);
     if (last < way)
         broken(rules, "tubes.pressure.over_travel", 0,
-               "ends at %g m; the rocket goes %g m to the tip", last, way);
+               "ends at %g m; the rocket travels %g m to the tip", last, way);
 }
 
 static void pressure_rules(const rule_set *rules)
@@ -524,14 +519,14 @@ static void pressure_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     const ld_pressure *pressure = &model->tubes.pressure;
     if (model->rocket.motor.absent && !pressure->present)
-        broken(rules, "rocket.motor", 0, "a launch needs one, or tubes.pressure");
+        broken(rules, "rocket.motor", 0, "a launch requires a motor or tubes.pressure");
     if (model->rocket.motor.absent && model_has_jet(model))
-        broken(rules, "platform.jet", 0, "goes with a motor, whose jet it is");
+        broken(rules, "platform.jet", 0, "requires a motor");
     if (!pressure->present)
         return;
     if (model_has_surfaces(model))
         broken(rules, "tubes.pressure", 0,
-               "goes with a bore; a guide of surfaces is open behind the rocket");
+               "requires a bore; a guide of surfaces is open behind the rocket");
     if (pressure->form == LD_PRESSURE_OVER_TIME)
         over_time_rules(rules);
     if (pressure->form == LD_PRESSURE_OVER_TRAVEL)
@@ -547,7 +542,7 @@ static void coupling_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     if (model->run.coupling_step > 0 && !model_has_vehicle(model) && (int)model->base.kind >= 0)
         broken(rules, "run.coupling", 0,
-               "goes with base.kind: vehicle; another base has no subsystems to couple");
+               "requires base.kind: vehicle; other bases have no subsystems to couple");
 }
 
 // Heights rise, pressures fall, and no row has as much vapour as air.
@@ -559,7 +554,7 @@ static void air_profile_rules(const rule_set *rules)
     for (size_t i = 0; i < profile->rows; i++) {
         const double *row = profile->data + i * profile->columns;
         if (i > 0 && row[1] >= row[1 - (int)profile->columns])
-            broken(rules, path, (int)i + 1, "%g Pa is no less than %g Pa in the row before", row[1],
+            broken(rules, path, (int)i + 1, "%g Pa is not below %g Pa in the row before", row[1],
                    row[1 - (int)profile->columns]);
         if (profile->columns == 4 && vapour_pressure(row[2], row[3]) > 0.5 * row[1])
             broken(rules, path, (int)i + 1,
@@ -577,7 +572,7 @@ static void environment_rules(const rule_set *rules)
     if (air->temperature_offset != 0 && air->kind != LD_ATMOSPHERE_US1976 &&
         air->kind != LD_ATMOSPHERE_PROFILE)
         broken(rules, "environment.temperature_offset", 0,
-               "goes with the atmosphere us1976 or a profile");
+               "requires the atmosphere us1976 or a profile");
     if (air->kind == LD_ATMOSPHERE_PROFILE)
         air_profile_rules(rules);
     if (!wind->present)
@@ -593,7 +588,7 @@ static void brakes_rules(const rule_set *rules)
     if (!brakes->present)
         return;
     if (rules->model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
-        broken(rules, "rocket.air_brakes", 0, "without air nothing brakes");
+        broken(rules, "rocket.air_brakes", 0, "without an atmosphere they have no drag");
     rising_rule(rules, "rocket.air_brakes.over_time.#", &brakes->over_time, "s", false);
     rising_rule(rules, "rocket.air_brakes.over_height.#", &brakes->over_height, "m", false);
 }
@@ -603,7 +598,7 @@ static void parachute_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     const ld_rocket *rocket = &model->rocket;
     if (rocket->parachute_count > 0 && model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
-        broken(rules, "rocket.parachutes", 0, "without air no parachute opens");
+        broken(rules, "rocket.parachutes", 0, "without an atmosphere parachutes have no drag");
     for (int i = 0; i < rocket->parachute_count; i++) {
         const ld_parachute *one = &rocket->parachute[i];
         if (one->trigger == LD_TRIGGER_HEIGHT && model->environment.ground == LD_GROUND_NONE)
@@ -635,7 +630,7 @@ static void start_rules(const rule_set *rules)
     if (isnan(flight->position[0]) == !flight->geodetic.present)
         broken(rules, "flight", 0, "needs one of position and geodetic");
     if (flight->geodetic.present && earth->kind == LD_EARTH_FLAT)
-        broken(rules, "flight.geodetic", 0, "goes with a round or wgs84 Earth");
+        broken(rules, "flight.geodetic", 0, "requires a round or wgs84 Earth");
     if (velocities != 1)
         broken(rules, "flight", 0, "needs one of velocity, speed and velocity_ned");
     if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
@@ -672,11 +667,11 @@ static void scatter_rules(const rule_set *rules)
     const ld_scatter *scatter = &rules->model->scatter;
     if (scatter->present && scatter->plan == LD_PLAN_LHS && scatter->replicates > 0 &&
         scatter->samples % scatter->replicates != 0)
-        broken(rules, "scatter.replicates", 0, "%d samples are no multiple of %d replicates",
+        broken(rules, "scatter.replicates", 0, "%d samples are not a multiple of %d replicates",
                scatter->samples, scatter->replicates);
     if (scatter->until_count > 0 && scatter->plan == LD_PLAN_LHS && scatter->replicates < 2)
         broken(rules, "scatter.until", 0,
-               "one hypercube states no interval; give replicates, or the plan random");
+               "one hypercube gives no interval; set replicates, or plan: random");
 }
 
 void model_check_rules(const ld_model *model, rule_report *report, void *self)

@@ -14,13 +14,13 @@ static void emerged_rules(const rule_set *rules)
         return;
     if (!model_has_launcher(rules->model))
         broken(rules, "rocket.aerodynamics.emerged", 0,
-               "goes with a launcher; a flight alone has no tube");
+               "requires a launcher; a scenario of flight only has no tube");
     if (model_has_surfaces(rules->model))
         broken(rules, "rocket.aerodynamics.emerged", 0,
-               "goes with a bore; on a guide of surfaces the air acts on the whole rocket");
+               "requires a bore; on a guide of surfaces the air acts on the whole rocket");
     if (air->model == LD_AERODYNAMICS_BODY && isnan(air->emerged.diameter))
         broken(rules, "rocket.aerodynamics.emerged.diameter", 0,
-               "missing; a plain body has no reference_diameter to take in its place");
+               "missing; a plain body has no reference_diameter in its place");
     for (int i = 0; i < rocket->adaptor_count; i++)
         if (air->emerged.nose < rocket->adaptor[i].at) {
             broken(rules, "rocket.aerodynamics.emerged.nose", 0,

@@ -106,7 +106,7 @@ static void motion_span_rule(const rule_set *rules)
                end + model->run.end_time);
     else if (end >= last)
         broken(rules, "base.motion.table", 0,
-               "ends at %g s; it must go on beyond the last ignition, at %g s", last, end);
+               "ends at %g s; it must extend beyond the last ignition, at %g s", last, end);
 }
 
 void base_rules(const rule_set *rules)
@@ -117,7 +117,7 @@ void base_rules(const rule_set *rules)
     sea_rules(rules);
     motion_rows_rule(rules, &base->motion);
     if (base->motion.rows == 0 && base->motion_start != 0)
-        broken(rules, "base.motion.start", 0, "goes with motion.table, whose clock it is on");
+        broken(rules, "base.motion.start", 0, "requires motion.table, whose clock it uses");
     if (base->motion.rows == 1)
         broken(rules, "base.motion.table", 0, "needs at least two rows");
     if (base->motion.rows == 0)
@@ -128,9 +128,9 @@ void base_rules(const rule_set *rules)
         broken(rules, "base.motion.table", 0, "given together with sines; give one of them");
     if (base->velocity[0] != 0 || base->velocity[1] != 0 || base->velocity[2] != 0)
         broken(rules, "base.velocity", 0,
-               "given together with motion.table, which holds the whole motion");
+               "given together with motion.table, which gives the whole motion");
     if (base->sea.present)
         broken(rules, "base.sea", 0,
-               "given together with motion.table, which holds the whole motion");
+               "given together with motion.table, which gives the whole motion");
     motion_span_rule(rules);
 }

@@ -22,7 +22,7 @@ static void bore_rules(const rule_set *rules)
                    "missing; expected a number with a unit of m, > 0 m");
         if (clearance == 0)
             broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "must be > 0 m; without clearance take the contact law bilateral");
+                   "must be > 0 m; without clearance use the contact law bilateral");
         if (clearance >= bore)
             broken(rules, "rocket.adaptors.#.clearance", i + 1,
                    "%g m must be less than the bore's radius, %g m", clearance, bore);
@@ -40,11 +40,11 @@ static void surface_rules(const rule_set *rules)
                 broken(rules, "tubes.guide.surfaces.#.name", k + 1,
                        "\"%s\" is the name of surface %d", guide->surface[j].name, j + 1);
     if (model->tubes.slot.kind == LD_SLOT_HELIX)
-        broken(rules, "tubes.slot", 0, "goes with a bore; with guide's surfaces give `slot: none`");
+        broken(rules, "tubes.slot", 0, "requires a bore; with guide.surfaces give `slot: none`");
     if ((int)model->rocket.contact.law >= 0 &&
         contact_has(model->rocket.contact.law, LD_CONTACT_TWO_SIDED))
         broken(rules, "rocket.contact.law", 0,
-               "this law holds adaptors on the axis of a bore; on surfaces take a law of contact");
+               "this law holds adaptors on the axis of a bore; on surfaces use a law of contact");
 }
 
 void guide_rules(const rule_set *rules)

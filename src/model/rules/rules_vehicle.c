@@ -15,9 +15,9 @@ static void coherence_rules(const rule_set *rules, const ld_road *road)
     rising_rule(rules, "base.road.coherence.#", &road->coherence, "1/m", false);
     if (coherent && road->coherence.rows == 0)
         broken(rules, "base.road.coherence", 0,
-               "missing; coherent tracks need the table of g over spatial frequency");
+               "missing; coherent tracks require the table of g over spatial frequency");
     if (road->coherence.rows > 0 && !coherent && (int)road->tracks >= 0)
-        broken(rules, "base.road.coherence", 0, "goes with tracks: coherent");
+        broken(rules, "base.road.coherence", 0, "requires tracks: coherent");
 }
 
 // x of the chassis at the first instant and at the last one that is known of.
@@ -67,7 +67,7 @@ static void road_rules(const rule_set *rules)
     if (road->iso_class == LD_ROAD_SMOOTH && road->sine_count == 0 && road->bump_count == 0 &&
         road->profile.rows == 0)
         broken(rules, "base.road", 0,
-               "nothing gives it a height: give class, sines, bumps or table, or flat: true");
+               "it has no height: give class, sines, bumps or table, or flat: true");
     if (road->wavelengths[0] >= road->wavelengths[1])
         broken(rules, "base.road.wavelengths", 0,
                "the shortest, %g m, must be less than the longest, %g m", road->wavelengths[0],
@@ -114,9 +114,9 @@ static void wheel_rules(const rule_set *rules)
     }
     if (vehicle->wheel_count >= 3 && on_one_line(vehicle))
         broken(rules, "base.wheels", 0,
-               "they stand on one line, seen from above; nothing could stand on them");
+               "they are on one line, seen from above: the vehicle would tip over");
     if (vehicle->speed > 0 && driven == 0)
-        broken(rules, "base.drive.wheels", 0, "no wheel is driven; nothing would hold %g m/s",
+        broken(rules, "base.drive.wheels", 0, "no wheel is driven; a speed of %g m/s requires one",
                vehicle->speed);
 }
 
@@ -126,7 +126,7 @@ static void suspension_rules(const rule_set *rules)
     bool stop = !isnan(s->bump_stop.compression) || !isnan(s->bump_stop.extension);
     if (stop && isnan(s->bump_stop.stiffness))
         broken(rules, "base.suspension.bump_stop", 0,
-               "stiffness is missing; a stop needs it, in N/m, > 0 N/m");
+               "stiffness is missing; a stop requires it, in N/m, > 0 N/m");
     if (!stop && !isnan(s->bump_stop.stiffness))
         broken(rules, "base.suspension.bump_stop", 0,
                "compression and extension are missing; give the travel of one or both stops");
@@ -161,7 +161,7 @@ static void sample_rules(const rule_set *rules, const char *path, const ld_stabi
                   {"sensor_resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
     for (int i = 0; i < 3 && s->sample == 0; i++)
         if (option[i].given)
-            broken(rules, path, 0, "sample is missing; %s needs it, in s, > 0 s and <= 10 s",
+            broken(rules, path, 0, "sample is missing; %s requires it, in s, > 0 s and <= 10 s",
                    option[i].name);
     if (s->sample > 0 && s->delay > s->sample)
         broken(rules, path, 0, "a delay of %g s is longer than the sample period of %g s", s->delay,
@@ -188,7 +188,7 @@ static void gain_rules(const rule_set *rules, const char *path, const ld_stabili
         broken(rules, path, 0, "missing: %s; only a hinge with a lock does without", missing);
     if (s->slew > 0 && s->bandwidth == 0)
         broken(rules, path, 0,
-               "bandwidth is missing; a slew limit needs it, in Hz, > 0 Hz and <= 10000 Hz");
+               "bandwidth is missing; a slew limit requires it, in Hz, > 0 Hz and <= 10000 Hz");
     sample_rules(rules, path, s);
 }
 
@@ -204,7 +204,7 @@ static void jet_rules(const rule_set *rules, const ld_table *jet)
                jet->data[0]);
     if (last[1] > 0)
         broken(rules, "platform.jet.#", (int)jet->rows,
-               "the last force must be 0 N, not %g N: beyond it there is none", last[1]);
+               "the last force must be 0 N, not %g N: the force ends there", last[1]);
     if (jet->rows == 1)
         broken(rules, "platform.jet", 0, "needs at least two rows");
 }

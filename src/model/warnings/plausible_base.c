@@ -190,7 +190,7 @@ const plausible_rule plausible_of_base[] = {
     {"base.velocity", "the speed", .unit = "m/s", NO_LOW, .high = 1000, .find = base_speed,
      .why = "it is steady while the launch lasts"},
     {"base.motion", "the acceleration by its sines", .unit = "m/s2", NO_LOW, .high = 100,
-     .find = base_acceleration, .why = "gravity has 9.8 m/s2"},
+     .find = base_acceleration, .why = "gravity is 9.8 m/s2"},
     {"base.motion", "the angular rate by its sines", .unit = "rad/s", NO_LOW, .high = 10,
      .find = base_rate, .why = "that is more than a turn in a second"},
     {"base.motion.table.#", "the time since the row before", .unit = "s",

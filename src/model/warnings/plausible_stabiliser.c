@@ -72,45 +72,45 @@ OF_LOOP(backlash, loop->given->gear.backlash, loop->given->torque_limit / loop->
 #define NO_HIGH .high = INFINITY
 #define STABILISER(name) "platform." #name ".stabiliser"
 #define TORQUE_LIMIT(name) .unit = "N.m", .other = STABILISER(name) ".torque_limit"
-#define RATE_TIME .unit = "s", .other = "the time in which the gain of the rate takes the motion"
+#define RATE_TIME .unit = "s", .other = "the decay time by the rate gain"
 
 // clang-format off
 #define RULES(name)                                                                                \
     {STABILISER(name) ".cascade.kp", .unit = "1/s",                                                \
      .other = "rate_kp over the inertia that the hinge turns", NO_LOW, .high = 1,                  \
-     .find = name##_cascade_kp, .why = "the loop of the angle is faster than that of the rate"},   \
+     .find = name##_cascade_kp, .why = "the angle loop is faster than the rate loop"},   \
     {STABILISER(name) ".bandwidth", .unit = "Hz", .other = "the loop's kp over kd",    \
      .low = 2, NO_HIGH, .find = name##_bandwidth,                                                  \
-     .why = "an actuator as slow as its loop swings"},                                             \
+     .why = "a loop with such a slow actuator oscillates"},                                             \
     {STABILISER(name) ".slew", "the time in which the torque reaches its limit", .unit = "s",      \
      NO_LOW, .high = 0.3, .find = name##_slew_time,                                                \
      .why = "large motions then grow; no check before the run detects it"},         \
     {STABILISER(name) ".sample", RATE_TIME, NO_LOW, .high = 2, .find = name##_sample,              \
-     .why = "the loop swings from sample to sample"},                                  \
+     .why = "the loop oscillates from sample to sample"},                                  \
     {STABILISER(name) ".sample", .unit = "s", .other = "run.max_step", .low = 0.1, NO_HIGH,        \
      .find = name##_sample_step, .why = "each sample ends a step of the integration"},             \
-    {STABILISER(name) ".delay", "with half a period the time by which a torque is late",           \
+    {STABILISER(name) ".delay", "the delay of a torque, half a period included",           \
      RATE_TIME, NO_LOW, .high = 1, .find = name##_late, .of = STABILISER(name) ".sample",          \
-     .why = "a loop that is so late swings"},                                                      \
-    {STABILISER(name) ".sensor_noise.angle", "the torque that it makes", TORQUE_LIMIT(name),       \
-     NO_LOW, .high = 0.3, .find = name##_angle_noise, .why = "the loop drowns in its noise"},      \
-    {STABILISER(name) ".sensor_noise.rate", "the torque that it makes", TORQUE_LIMIT(name),        \
-     NO_LOW, .high = 0.3, .find = name##_rate_noise, .why = "the loop drowns in its noise"},       \
+     .why = "a loop with such a delay oscillates"},                                                      \
+    {STABILISER(name) ".sensor_noise.angle", "the torque that it causes", TORQUE_LIMIT(name),       \
+     NO_LOW, .high = 0.3, .find = name##_angle_noise, .why = "noise dominates the torque"},      \
+    {STABILISER(name) ".sensor_noise.rate", "the torque that it causes", TORQUE_LIMIT(name),        \
+     NO_LOW, .high = 0.3, .find = name##_rate_noise, .why = "noise dominates the torque"},       \
     {STABILISER(name) ".sensor_resolution.angle", "the torque of a step", TORQUE_LIMIT(name),      \
      NO_LOW, .high = 0.3, .find = name##_angle_step,                                               \
-     .why = "the loop goes from limit to limit in a few steps"},                                   \
+     .why = "a few steps of the sensor reach the torque limit"},                                   \
     {STABILISER(name) ".sensor_resolution.rate", "the torque of a step", TORQUE_LIMIT(name),       \
      NO_LOW, .high = 0.3, .find = name##_rate_step,                                                \
-     .why = "the loop goes from limit to limit in a few steps"},                                   \
+     .why = "a few steps of the sensor reach the torque limit"},                                   \
     {STABILISER(name) ".gear.stiffness", "the frequency of the hinge on it", .unit = "Hz",         \
      .low = 1, .high = 1000, .find = name##_gear_frequency, .of = "tubes.layout.first",            \
-     .why = "a gear is stiffer than a pendulum and softer than rock"},                             \
+     .why = "gears are stiffer than a pendulum and softer than rock"},                             \
     {STABILISER(name) ".gear.inertia", .unit = "kg.m2", .other = "the inertia that the hinge turns", \
      .low = 1e-4, .high = 5, .find = name##_motor, .of = "tubes.layout.first",                     \
-     .why = "as seen from the hinge, a motor is about as hard to turn as its load"},                     \
+     .why = "seen from the hinge, a motor has about the inertia of its load"},                     \
     {STABILISER(name) ".gear.backlash", .unit = "rad",                                             \
-     .other = "the error that asks for the torque's limit", NO_LOW, .high = 0.5,                   \
-     .find = name##_backlash, .why = "the loop has its torque before the teeth touch"}
+     .other = "the error at which the torque reaches its limit", NO_LOW, .high = 0.5,                   \
+     .find = name##_backlash, .why = "the torque reaches its limit within the backlash"}
 // clang-format on
 
 const plausible_rule plausible_of_stabiliser[] = {RULES(azimuth), RULES(elevation), {0}};

@@ -297,7 +297,7 @@ OF_PLATFORM(elevation, 2)
          .high = 100,                                                                              \
          .find = name##_frequency,                                                                 \
          .of = "tubes.layout.first",                                                               \
-         .why = "a stabiliser holds better than a pendulum, and no drive is faster"},              \
+         .why = "a stabiliser is stiffer than a pendulum, and no drive is faster"},                \
         {"platform." #name ".lock.stiffness",                                                      \
          "the frequency of the hinge",                                                             \
          .unit = "Hz",                                                                             \
@@ -305,31 +305,31 @@ OF_PLATFORM(elevation, 2)
          .high = 1000,                                                                             \
          .find = name##_lock,                                                                      \
          .of = "tubes.layout.first",                                                               \
-         .why = "a lock is tighter than a pendulum and softer than rock"},                         \
+         .why = "a lock is stiffer than a pendulum and softer than rock"},                         \
         {"platform." #name ".friction.viscous",                                                    \
-         "the time in which it takes the motion of the hinge",                                     \
+         "the decay time of the hinge's motion",                                                   \
          .unit = "s",                                                                              \
          .other = "run.max_step",                                                                  \
          .low = 0.05,                                                                              \
          NO_HIGH,                                                                                  \
          .find = name##_viscous,                                                                   \
-         .why = "the integrator follows it by as many steps as it needs"},                         \
+         .why = "the integrator needs many short steps to follow it"},                             \
         {"platform." #name ".stabiliser.kd",                                                       \
-         "the time in which it takes the motion of the hinge",                                     \
+         "the decay time of the hinge's motion",                                                   \
          .unit = "s",                                                                              \
          .other = "run.max_step",                                                                  \
          .low = 0.05,                                                                              \
          NO_HIGH,                                                                                  \
          .find = name##_kd,                                                                        \
-         .why = "the integrator follows it by as many steps as it needs"},                         \
+         .why = "the integrator needs many short steps to follow it"},                             \
         {"platform." #name ".lock.damping",                                                        \
-         "the time in which it takes the motion of the hinge",                                     \
+         "the decay time of the hinge's motion",                                                   \
          .unit = "s",                                                                              \
          .other = "run.max_step",                                                                  \
          .low = 0.05,                                                                              \
          NO_HIGH,                                                                                  \
          .find = name##_lock_damping,                                                              \
-         .why = "the integrator follows it by as many steps as it needs"},                         \
+         .why = "the integrator needs many short steps to follow it"},                             \
         {"platform." #name ".stabiliser.command",                                                  \
          "the greatest rate",                                                                      \
          .unit = "rad/s",                                                                          \
@@ -345,7 +345,7 @@ OF_PLATFORM(elevation, 2)
          .why = "friction takes most of the torque"},                                              \
     {                                                                                              \
         "platform." #name ".friction.rate", .unit = "rad/s", NO_LOW, .high = 0.1,                  \
-                                            .why = "it only smooths friction about rest"           \
+                                            .why = "it only smooths friction near zero speed"      \
     }
 
 const plausible_rule plausible_of_vehicle[] = {
@@ -357,7 +357,7 @@ const plausible_rule plausible_of_vehicle[] = {
      .low = 0, .high = 1, .find = place_across, .why = "the vehicle tips over"},
     {"base.wheels.#.mount", "the distance from the nearest wheel before it", .unit = "m",
      .other = "base.tyre.radius", .low = 0.25, NO_HIGH, .find = wheel_distance,
-     .why = "two wheels do not stand in one place"},
+     .why = "two wheels cannot be at one position"},
     {"base.wheels.#.mount.y", .unit = "m", .other = "base.tyre.radius", NO_LOW, .high = 1,
      .why = "the chassis' mass centre lies below the road"},
     {"base.wheels.#.mass", .unit = "kg", .other = "platform.chassis.mass", .low = 1e-4, .high = 0.5,
@@ -380,9 +380,9 @@ const plausible_rule plausible_of_vehicle[] = {
     {"base.tyre.stiffness.y", "the frequency of a wheel between tyre and suspension", .unit = "Hz",
      .low = 1, .high = 200, .find = hop_frequency, .of = "base.suspension.stiffness.y",
      .why = "that of lorries is about 10 Hz"},
-    {"base.tyre.damping.y", "the time in which it takes the motion of a wheel", .unit = "s",
+    {"base.tyre.damping.y", "the decay time of a wheel's motion", .unit = "s",
      .other = "run.max_step", .low = 0.05, NO_HIGH, .find = tyre_time, .of = "base.wheels.#.mass",
-     .why = "the integrator follows it by as many steps as it needs"},
+     .why = "the integrator needs many short steps to follow it"},
     {"base.tyre.relaxation_length", .unit = "m", .other = "base.tyre.radius", .low = 0.05,
      .high = 10, .why = "it is about the radius"},
     {"base.tyre.friction", .unit = "", .low = 0.05, .high = 1.5,
@@ -392,23 +392,22 @@ const plausible_rule plausible_of_vehicle[] = {
     {"base.road.bumps.#.height", .unit = "m", .other = "base.road.bumps.#.length", .low = -0.5,
      .high = 0.5, .why = "a bump so steep is a wall"},
     {"base.road.wavelengths.y", .unit = "m", .other = "base.tyre.radius", .low = 0.02, NO_HIGH,
-     .why = "a tyre swallows what is so short"},
+     .why = "a tyre filters such short waves out"},
     {"platform.chassis.mass", .unit = "kg",
      .other = "the mass of platforms, tubes and rockets on it", .low = 0.1, NO_HIGH,
-     .find = chassis_mass, .why = "it stands under all that it carries"},
+     .find = chassis_mass, .why = "the chassis carries all of them"},
     {"platform.chassis.inertia.x", "the radius of gyration about x", .unit = "m",
      .other = "the distance of left and right wheels", .low = 0.05, .high = 2, .find = chassis_roll,
      .of = "platform.chassis.mass",
-     .why = "the chassis is about as large as its wheels stand apart"},
+     .why = "the chassis is about as large as its wheelbase and track"},
     {"platform.chassis.inertia.z", "the radius of gyration about z", .unit = "m", WHEEL_BASE,
      .low = 0.05, .high = 2, .find = chassis_pitch, .of = "platform.chassis.mass",
-     .why = "the chassis is about as large as its wheels stand apart"},
+     .why = "the chassis is about as large as its wheelbase and track"},
     {"platform.jet", "the greatest force", .unit = "N", .other = "the greatest thrust", NO_LOW,
-     .high = 1, .find = jet_force,
-     .why = "a jet pushes with no more than the thrust that makes it"},
+     .high = 1, .find = jet_force, .why = "the force of a jet is at most the thrust"},
     {"platform.jet", "the distance at which it ends", .unit = "m", .other = "tubes.length",
      .low = 0.02, .high = 50, .find = jet_reach,
-     .why = "a jet is felt some tube lengths away from the mouth"},
+     .why = "a jet acts up to some tube lengths from the tip"},
     {"platform.jet_scale", .unit = "", .low = 0.1, .high = 10, .find = jet_scale,
      .why = "it is a correction of the table"},
     {"platform.azimuth.stabiliser.command", "the greatest angle", .unit = "rad", NO_LOW,

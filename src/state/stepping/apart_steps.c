@@ -197,9 +197,9 @@ static ld_status go_to(integrator *part, double t_next, ld_error *error)
     for (int64_t steps = 0; integrator_time(part) < t_next; steps++) {
         if ((double)steps > most)
             return ld_fail(error, LD_ERR_NUMERIC,
-                           "the steps became too short to go on: more than %.0f between two "
-                           "exchanges of the subsystems, up to t = %.9g s; is a damper or a "
-                           "friction of the vehicle far too hard?",
+                           "the steps became too short to continue: more than %.0f steps between "
+                           "two exchanges of the subsystems, up to t = %.9g s; check for a damper "
+                           "or friction of the vehicle that is far too stiff",
                            most, integrator_time(part));
         if (integrator_step(part, t_next, error) == INTEGRATOR_FAILED)
             return integrator_failure(part);

@@ -188,6 +188,7 @@ ld_status ledger_close(study_ledger *self)
     if (self->status || !interrupted)
         return self->status;
     return ld_fail(self->error, LD_ERR_INTERRUPTED,
-                   "interrupted after %" PRId64 " of %" PRId64 " samples; the same command goes on",
+                   "interrupted after %" PRId64 " of %" PRId64
+                   " samples; the same command continues",
                    self->counts->done, self->counts->samples);
 }

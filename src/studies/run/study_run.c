@@ -9,8 +9,8 @@ static ld_status check_shard(const ld_study *study, const ld_study_options *opti
 {
     if (options->shards > 0 && study->nominal->scatter.until_count > 0)
         return ld_fail(error, LD_ERR_INPUT,
-                       "scatter.until wants all samples, of which a shard knows its own only: run "
-                       "the shards with --set scatter.until=, or the study as a whole");
+                       "scatter.until requires all samples, and a shard has its own only: run the "
+                       "shards with --set scatter.until=, or run the study without shards");
     if (options->shards == 0 || (options->shard >= 1 && options->shard <= options->shards))
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT, "there is no shard %d of %d: they go from 1/%d to %d/%d",

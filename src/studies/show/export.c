@@ -69,7 +69,7 @@ static ld_status tell_damage(const study_data *data, ld_status failed, ld_error 
 {
     const ld_error also = failed && error ? *error : (ld_error){.text = ""};
     return ld_fail(error, failed ? failed : LD_ERR_INPUT,
-                   "%s; the table holds what is intact, %" PRId64 " rockets%s%s", data->damage.text,
+                   "%s; the table has what is intact, %" PRId64 " rockets%s%s", data->damage.text,
                    data->rockets, *also.text ? "; " : "", also.text);
 }
 

@@ -58,10 +58,10 @@ static ld_status expect_as_before(const export_table *self, bool there, ld_error
     const int64_t before = self->data->rockets;
     if (there ? self->rockets <= before : self->rockets == before)
         return LD_OK;
-    return ld_fail(error, LD_ERR_FILE,
-                   "cannot read %s: it is damaged, or its disk fails: read again, it gives other "
-                   "samples",
-                   self->walk.view.path);
+    return ld_fail(
+        error, LD_ERR_FILE,
+        "cannot read %s: a second reading gives other samples: it is damaged, or its disk fails",
+        self->walk.view.path);
 }
 
 ld_status export_next(export_table *self, bool *there, ld_error *error)

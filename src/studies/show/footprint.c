@@ -155,6 +155,6 @@ void footprint_why_not(const footprint_region *region, char text[128])
     bool enough = region->independent > region->needed - 0.5;
     snprintf(text, 128,
              enough ? "landings too far apart: more than %.6g independent ones are needed"
-                    : "too few landings: %.6g independent ones are needed, %.6g are there",
+                    : "too few landings: %.6g independent ones are needed, found %.6g",
              enough ? region->independent : region->needed, region->independent);
 }

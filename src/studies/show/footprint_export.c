@@ -365,15 +365,14 @@ static ld_status find_place(footprint_writer *self, const char *file, ld_error *
     model_clear(&model);
     find_moving(self);
     if (!status && !self->placed)
-        return ld_fail(
-            error, LD_ERR_INPUT,
-            "%s wants a place on the Earth: the scenario has no environment.site; a .csv "
-            "file has metres from the launch point",
-            file);
+        return ld_fail(error, LD_ERR_INPUT,
+                       "%s requires a position on the Earth: the scenario has no environment.site; "
+                       "a .csv file has metres from the launch point",
+                       file);
     if (!status && self->moving)
         return ld_fail(error, LD_ERR_INPUT,
-                       "%s wants one place on the Earth, and %s differs from launch to launch; a "
-                       ".csv file has metres from the launch point",
+                       "%s requires one launch point on the Earth, and %s differs from launch to "
+                       "launch; a .csv file has metres from the launch point",
                        file, self->moving);
     return status;
 }
@@ -382,7 +381,7 @@ static ld_status export_footprints(footprint_writer *self, const char *file, ld_
 {
     const char *nearest, *const *name = study_pairs[STUDY_LANDING].name;
     if (!study_data_find(self->data, name[0], &nearest))
-        return ld_fail(error, LD_ERR_INPUT, "the study has no landings: its rockets do not fly on");
+        return ld_fail(error, LD_ERR_INPUT, "the study has no landings: its rockets do not fly");
     ld_status status = self->format->on_earth ? find_place(self, file, error) : LD_OK;
     return status ? status : table_file_print(write_all, self, file, error);
 }

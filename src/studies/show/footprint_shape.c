@@ -226,15 +226,14 @@ static ld_status place_line(const footprint_site *site, const footprint_line *fl
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the footprints");
     for (; line->count < flat->count; line->count++)
         if (!place_of(site, flat->at[line->count], line->at[line->count]))
-            return ld_fail(
-                error, LD_ERR_INPUT,
-                "a footprint reaches beyond the horizon of the launch point, where x and "
-                "z of I have no place on the Earth");
+            return ld_fail(error, LD_ERR_INPUT,
+                           "a footprint reaches beyond the horizon of the launch point, where x "
+                           "and z of I have no position on the Earth");
     for (size_t i = 0; i < line->count; i++)
         if (fabs(line->at[i][0] - line->at[(i + 1) % line->count][0]) > 180)
-            return ld_fail(error, LD_ERR_INPUT,
-                           "a footprint goes round a pole: it is no polygon of longitudes and "
-                           "latitudes");
+            return ld_fail(
+                error, LD_ERR_INPUT,
+                "a footprint encloses a pole: it is not a polygon of longitudes and latitudes");
     if ((area_of(line) < 0) != line->hole)
         turn_round(line);
     return LD_OK;

@@ -31,7 +31,7 @@ typedef struct shot_reader {
 
 static ld_status no_memory(ld_error *error)
 {
-    return ld_fail(error, LD_ERR_MEMORY, "no memory for the measured shots");
+    return ld_fail(error, LD_ERR_MEMORY, "no memory for the measured launches");
 }
 
 // "FILE:LINE:COLUMN: NAME: ..."
@@ -106,7 +106,7 @@ static ld_status read_head(shot_reader *self, int field)
     }
     for (int i = 0; i < shots->results; i++)
         if (strcmp(shots->result[i].name, result->name) == 0)
-            return refuse(self, field, result->name, "stands in a column before this one, too");
+            return refuse(self, field, result->name, "is given in an earlier column, too");
     self->result[field] = shots->results++;
     return read_unit(self, field, result, column->unit);
 }
@@ -215,7 +215,7 @@ static ld_status take_result(shot_reader *self, int index)
     }
     if (result->count > 0)
         return LD_OK;
-    return ld_fail(self->error, LD_ERR_INPUT, "%.300s: %s: no shot has a value", self->file,
+    return ld_fail(self->error, LD_ERR_INPUT, "%.300s: %s: no launch has a value", self->file,
                    result->name);
 }
 
@@ -228,7 +228,7 @@ static ld_status read_shots(shot_reader *self)
     if (!status && self->at.wrong)
         status = refuse(self, 0, "", self->at.wrong);
     if (!status && shots->shots == 0)
-        status = refuse(self, 0, "", "no shot follows the header");
+        status = refuse(self, 0, "", "no launch follows the header");
     if (status)
         return status;
     qsort(self->row, shots->shots, sizeof(shot *), by_salvo);

@@ -43,8 +43,8 @@ static ld_status print_exit_errors(shown *self, const study_point *point, ld_err
     ld_status status = shown_share_of(self, point, &shown_uncertain, &known, &above, error);
     if (above > 0 && !status)
         fprintf(self->stream,
-                "rates at the exit off by more than %g %% through errors of the steps: %.3g %% of "
-                "%zu rockets\n",
+                "exit rates off by more than %g %% through integration errors: %.3g %% of %zu "
+                "rockets\n",
                 100 * EXIT_ERROR_NOTED, 100 * (double)above / (double)known, known);
     return status;
 }

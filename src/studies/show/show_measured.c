@@ -16,7 +16,7 @@ typedef struct verdict {
 
 void show_shots(FILE *stream, const char *file, const measured *shots)
 {
-    fprintf(stream, "measured in %s: %zu shots", VISIBLE(file), shots->shots);
+    fprintf(stream, "measured in %s: %zu launches", VISIBLE(file), shots->shots);
     if (shots->salvos)
         fprintf(stream, " of %zu salvos, over which intervals go", shots->salvos);
     fputs("\n\n", stream);
@@ -80,7 +80,7 @@ ld_status show_measured_result(const measured_result *result, const study_data *
 static void print_verdict(FILE *stream, const verdict *of)
 {
     if (of->tests == 0)
-        fputs("\nnothing can be tested: each side wants three independent groups or more\n",
+        fputs("\nnothing can be tested: each side requires at least three independent groups\n",
               stream);
     else if (of->differing == 0)
         fprintf(stream, "\nno difference at the 5 %% level, in %d tests\n", of->tests);
@@ -96,7 +96,7 @@ ld_status show_measured(FILE *stream, const measured *shots, const study_data *d
 {
     verdict found = {0};
     ld_status status = LD_OK;
-    fprintf(stream, "\n%-26s %5s %-22s %-22s   %-30s %6s\n", "mean", "shots", "measured",
+    fprintf(stream, "\n%-26s %5s %-22s %-22s   %-30s %6s\n", "mean", "count", "measured",
             "simulated", "difference, x: ratio", "p");
     for (int i = 0; i < shots->results && !status; i++) {
         measured_comparison of;

@@ -53,7 +53,7 @@ static ld_status list_shards(shard_list *self, const char *folder, ld_error *err
         return ld_fail(error, text_file_status(errno), "cannot read the folder %s: %s", folder,
                        strerror(errno));
     if (problem)
-        return ld_fail(error, LD_ERR_INPUT, "%s holds no shards of a study", folder);
+        return ld_fail(error, LD_ERR_INPUT, "%s contains no shards of a study", folder);
     bool first = true;
     for (size_t i = 0; i < self->found.gl_pathc; i++) {
         if (!read_name(self->found.gl_pathv[i], &shard, &shards))
@@ -232,7 +232,7 @@ static ld_status print_unfinished(study_store *self, const char *path, int64_t s
     free(text);
     if (kept < all)
         fprintf(stream, "  shard %d of %d lacks %" PRId64 " of its %" PRId64 " samples%s\n", shard,
-                shards, all - kept, all, is_at_work(path) ? ", and is still at work" : "");
+                shards, all - kept, all, is_at_work(path) ? ", and is still running" : "");
     return LD_OK;
 }
 
@@ -245,7 +245,7 @@ static void print_absent(const shard_list *list, FILE *stream)
             ;
         if (end == i)
             continue;
-        fprintf(stream, said ? ", %d" : "  not there: shard %d", i);
+        fprintf(stream, said ? ", %d" : "  missing: shard %d", i);
         if (end - 1 > i)
             fprintf(stream, " to %d", end - 1);
         said = true;
@@ -261,7 +261,7 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
     char *begun;
     ld_status status = ask(self, "SELECT 1 FROM main.sqlite_master", &begun, error);
     if (!status && !begun)
-        status = ld_fail(error, LD_ERR_INPUT, "no shard beside %s has begun", self->path);
+        status = ld_fail(error, LD_ERR_INPUT, "no shard of %s has begun", self->path);
     free(begun);
     if (!status)
         status = store_count(self, &counts, error);
@@ -313,7 +313,7 @@ ld_status ld_study_merge(const char *folder, FILE *stream, ld_error *error)
         store_close(&store);
     }
     if (!status && damage.status)
-        status = ld_fail(error, LD_ERR_INPUT, "%s; what is intact of it was joined", damage.text);
+        status = ld_fail(error, LD_ERR_INPUT, "%s; its intact part was merged", damage.text);
     globfree(&list.found);
     free(list.there);
     return status;

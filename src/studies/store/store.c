@@ -385,7 +385,7 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
     *self = (study_store){.lock = -1};
     snprintf(self->path, sizeof self->path, "%.4000s/study.db", folder);
     if (access(self->path, R_OK) != 0)
-        return ld_fail(error, LD_ERR_INPUT, "%s holds no study: cannot read %s: %s", folder,
+        return ld_fail(error, LD_ERR_INPUT, "%s contains no study: cannot read %s: %s", folder,
                        self->path, strerror(errno));
     ld_status status = LD_OK;
     if (open_to_read(self, folder) != SQLITE_OK || distrust(self->database) != SQLITE_OK ||

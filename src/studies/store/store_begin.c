@@ -120,12 +120,12 @@ static ld_status compare(study_store *self, const char *identity, ld_error *erro
         return status;
     }
     if (!before || !version) {
-        status = ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->path);
+        status = ld_fail(error, LD_ERR_INPUT, "%s contains no study", self->path);
     } else if (strcmp(before, identity) != 0) {
         first_difference(before, identity, line);
         status = ld_fail(error, LD_ERR_INPUT,
-                         "%s holds the study of another scenario, which differs first in \"%s\"; "
-                         "use another folder",
+                         "%s contains the study of another scenario, whose first difference is in "
+                         "\"%s\"; use another folder",
                          self->path, line);
     } else if (strcmp(version, LD_VERSION) != 0) {
         status = ld_fail(error, LD_ERR_INPUT,

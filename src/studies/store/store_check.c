@@ -61,7 +61,7 @@ static ld_status check_format(const store_view *self, ld_error *error)
     if (!status)
         status = store_view_text(self, "version", &version, error);
     if (!status && (!format || !version))
-        status = ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->path);
+        status = ld_fail(error, LD_ERR_INPUT, "%s contains no study", self->path);
     else if (!status && strcmp(format, STORE_FORMAT) != 0)
         status = ld_fail(error, LD_ERR_INPUT,
                          "%s is of format %.20s, begun by launchdyn %.40s: this is launchdyn "
@@ -92,9 +92,7 @@ ld_status store_read_kept(const store_view *self, store_kept *kept, ld_error *er
     kept_text(kept, again);
     if (!text || strcmp(text, again) != 0)
         status = ld_fail(error, LD_ERR_INPUT,
-                         "%s is damaged: what it says of the study (tables study, point, origin) "
-                         "is not as it was written",
-                         self->path);
+                         "%s is damaged: its tables study, point, origin were changed", self->path);
     free(text);
     return status;
 }
@@ -235,10 +233,9 @@ static ld_status damaged_samples(const store_walk *self, ld_error *error)
     char first[48] = "";
     if (self->first_damaged)
         snprintf(first, sizeof first, " (the first: %" PRId64 ")", self->first_damaged);
-    return ld_fail(
-        error, LD_ERR_INPUT,
-        "%s is damaged: samples that are not as they were kept: %" PRId64 " of %" PRId64 "%s",
-        self->view.path, gone > self->damaged ? gone : self->damaged, self->kept.samples, first);
+    return ld_fail(error, LD_ERR_INPUT,
+                   "%s is damaged: changed samples: %" PRId64 " of %" PRId64 "%s", self->view.path,
+                   gone > self->damaged ? gone : self->damaged, self->kept.samples, first);
 }
 
 ld_status store_walk_verdict(const store_walk *self, ld_error *error)
@@ -251,11 +248,11 @@ ld_status store_walk_verdict(const store_walk *self, ld_error *error)
     if (self->damaged > 0 || self->intact < self->kept.samples)
         return damaged_samples(self, error);
     if (self->intact > self->kept.samples || self->sum != self->kept.sum)
-        return ld_fail(error, LD_ERR_INPUT, "%s is damaged: it holds samples that were not kept",
+        return ld_fail(error, LD_ERR_INPUT, "%s is damaged: it has samples that were not stored",
                        view->path);
     ld_status status = ask(view, "SELECT count(*) FROM %s.rocket", &rockets, text, error);
     if (!status && rockets != self->all_rockets)
-        status = ld_fail(error, LD_ERR_INPUT, "%s is damaged: it holds rockets of no sample",
+        status = ld_fail(error, LD_ERR_INPUT, "%s is damaged: it has rockets without a sample",
                          view->path);
     if (!status)
         status = ask(view, "PRAGMA %s.integrity_check(1)", &none, text, error);

@@ -42,8 +42,8 @@ ld_status store_fail_by(const study_store *self, int code, const char *path, con
         return ld_fail(error, status_of(code), "%s is damaged: %s", path, why);
     if (code == SQLITE_BUSY)
         return ld_fail(error, status_of(code),
-                       "cannot %s %s: another program has been reading or writing it all the time; "
-                       "end that, or let it close the study, and do this again",
+                       "cannot %s %s: another program is reading or writing it; wait until it "
+                       "closes the study, then repeat",
                        what, path);
     return ld_fail(error, status_of(code), "cannot %s %s: %s%s%s%s", what, path, why,
                    number ? " (" : "", number ? strerror(number) : "", number ? ")" : "");

@@ -156,9 +156,9 @@ static ld_status refuse_found(const store_view *self, sqlite3_str *query, ld_err
     ld_status status =
         store_first_text(self, store_prepare_built(self->store, query, error), &found, error);
     if (found)
-        status =
-            ld_fail(error, LD_ERR_INPUT, "%s is damaged or changed: its %.80s is none of a study's",
-                    self->path, found);
+        status = ld_fail(error, LD_ERR_INPUT,
+                         "%s is damaged or changed: its %.80s does not belong to a study",
+                         self->path, found);
     free(found);
     return status;
 }

@@ -194,9 +194,9 @@ static ld_status count_points(study_store *store, int *points, ld_error *error)
     sqlite3_finalize(row);
     if (!read)
         return store_fail(store, "read", error);
-    return *points > 0
-               ? LD_OK
-               : ld_fail(error, LD_ERR_INPUT, "%s holds no study: it has no points", store->path);
+    return *points > 0 ? LD_OK
+                       : ld_fail(error, LD_ERR_INPUT, "%s contains no study: it has no points",
+                                 store->path);
 }
 
 // The points as the table `point` has them: a number and a text for each swept key.
@@ -275,7 +275,7 @@ static ld_status read_text(study_reader *self, const char *name, const char **te
     if (status)
         return status;
     if (!found)
-        return ld_fail(error, LD_ERR_INPUT, "%s holds no study", self->store.path);
+        return ld_fail(error, LD_ERR_INPUT, "%s contains no study", self->store.path);
     *text = keep(self, found);
     return *text ? LD_OK : no_memory(error);
 }

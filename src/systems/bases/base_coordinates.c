@@ -2,9 +2,9 @@
 
 // clang-format off
 static const quantity motions[] = {
-    {"base.x", "m", "place of the base in I", .at = QUANTITY_AT(base_inputs, motion[0])},
-    {"base.y", "m", "place of the base in I", .at = QUANTITY_AT(base_inputs, motion[1])},
-    {"base.z", "m", "place of the base in I", .at = QUANTITY_AT(base_inputs, motion[2])},
+    {"base.x", "m", "position of the base in I", .at = QUANTITY_AT(base_inputs, motion[0])},
+    {"base.y", "m", "position of the base in I", .at = QUANTITY_AT(base_inputs, motion[1])},
+    {"base.z", "m", "position of the base in I", .at = QUANTITY_AT(base_inputs, motion[2])},
     {"base.yaw", "rad", "yaw of the base", .at = QUANTITY_AT(base_inputs, motion[3])},
     {"base.pitch", "rad", "pitch of the base", .at = QUANTITY_AT(base_inputs, motion[4])},
     {"base.roll", "rad", "roll of the base", .at = QUANTITY_AT(base_inputs, motion[5])},

@@ -19,7 +19,7 @@ enum {
     TOLD_T = 19,
     TOLD_STATES = 20
 };
-_Static_assert((int)TOLD_STATES <= (int)BASE_MOST_STATES, "more states than a base may have");
+_Static_assert((int)TOLD_STATES <= (int)BASE_MOST_STATES, "more states than a base is allowed");
 
 static ld_status build(base_system *self, ld_error *error)
 {

@@ -31,7 +31,7 @@ enum {
     FMU_WORK,                            // [J] done on the FMU up to its first end
     FMU_STATES
 };
-_Static_assert((int)FMU_STATES <= (int)BASE_MOST_STATES, "more states than a base may have");
+_Static_assert((int)FMU_STATES <= (int)BASE_MOST_STATES, "more states than a base is allowed");
 
 // The names that our own vehicle as an FMU has.
 static const char *const default_names[LD_FMU_QUANTITIES] = {
@@ -158,7 +158,7 @@ static void place(const base_system *base, double t, const double *state, base_f
 
 static ld_status not_finite(const fmu_base *self, double t, int i, double value, ld_error *error)
 {
-    return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU says that %s is %g at t = %.9g s",
+    return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU reports that %s is %g at t = %.9g s",
                    self->package->path, default_names[i], value, t);
 }
 
@@ -178,10 +178,10 @@ static ld_status take_frame(const fmu_base *self, double t, const double *number
     }
     double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     if (!(fabs(length - 1) <= 1e-3))
-        return ld_fail(error, LD_ERR_NUMERIC,
-                       "%.300s: the FMU tells a quaternion of length %.6g in place of 1 at "
-                       "t = %.9g s",
-                       self->package->path, length, t);
+        return ld_fail(
+            error, LD_ERR_NUMERIC,
+            "%.300s: the FMU reports a quaternion of length %.6g, expected 1, at t = %.9g s",
+            self->package->path, length, t);
     double unit[4] = {q.w / length, q.x / length, q.y / length, q.z / length};
     v3 w = v3_from(number + LD_FMU_RATE);
     if (self->given->rate_axes == LD_FMU_AXES_OF_BODY)
@@ -346,7 +346,7 @@ static ld_status check_place(fmu_base *self, double t, const double *state, ld_e
         return status;
     return ld_fail(error, LD_ERR_NUMERIC,
                    "%s: the FMU has moved by %.3g (m, or of its quaternion) when its "
-                   "initialization ends; within it its outputs must follow its inputs",
+                   "initialization ends; its outputs must follow its inputs during initialization",
                    self->package->path, moved);
 }
 
@@ -407,11 +407,11 @@ static const base_stepping stepping = {.stand = stand, .go = go, .archive = arch
 
 // clang-format off
 static const quantity of_fmu[] = {
-    {"base.fmu_work", "J", "work that the wrench on the base did on the FMU, as that was given it", .at = QUANTITY_AT(fmu_instant, work)},
+    {"base.fmu_work", "J", "work of the wrench on the FMU, as sent to it", .at = QUANTITY_AT(fmu_instant, work)},
 };
 // clang-format on
 static const quantity_group quantity_groups[] = {
-    {.title = "base that an FMU moves", QUANTITY_ROWS(of_fmu)},
+    {.title = "base moved by an FMU", QUANTITY_ROWS(of_fmu)},
 };
 static const quantity_table quantities = {quantity_groups, 1};
 
@@ -593,9 +593,10 @@ static ld_status check_step(const fmu_base *self, ld_error *error)
 {
     double own = self->package->description.step, ratio = self->given->step / own;
     if (own > 0 && !(fabs(ratio - round(ratio)) <= 1e-9 * ratio && ratio >= 0.5))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "base.step: %.300s: the FMU steps by %g s, of which %g s is no multiple",
-                       self->package->path, own, self->given->step);
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "base.step: %.300s: the FMU steps by %g s; found %g s, which is not a multiple",
+            self->package->path, own, self->given->step);
     return LD_OK;
 }
 

@@ -4,7 +4,7 @@
 static ld_status build(base_system *self, ld_error *error)
 {
     (void)self;
-    return ld_fail(error, LD_ERR_INPUT, "base.kind: fmu: an FMU runs no other FMU");
+    return ld_fail(error, LD_ERR_INPUT, "base.kind: fmu: an FMU cannot run another FMU");
 }
 
 static void release(base_system *self)

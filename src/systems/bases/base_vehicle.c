@@ -353,11 +353,11 @@ static void residual(const base_system *self, const base_output *output, double 
 
 static ld_status no_rest(double smallest, ld_error *error)
 {
-    return ld_fail(error, LD_ERR_NUMERIC,
-                   "base.wheels: the vehicle finds no static equilibrium on its wheels (smallest "
-                   "residual %.3g m/s2): do all wheels reach the road, and is the mass centre "
-                   "between them?",
-                   smallest);
+    return ld_fail(
+        error, LD_ERR_NUMERIC,
+        "base.wheels: the vehicle has no static equilibrium on its wheels (smallest residual %.3g "
+        "m/s2): check that all wheels reach the road and the mass centre is between them",
+        smallest);
 }
 
 static ld_status check_rest(const base_system *self, const base_found *found, const double *state,
@@ -406,7 +406,7 @@ enum {
     WHEEL_ACROSS,
     GROUPS
 };
-_Static_assert((int)GROUPS <= (int)BASE_GROUPS, "more groups than a base may have");
+_Static_assert((int)GROUPS <= (int)BASE_GROUPS, "more groups than a base is allowed");
 
 static const char *const groups[GROUPS + 1] = {
     [SURGE] = "chassis, surge",
@@ -556,8 +556,8 @@ static const quantity of_wheels[] = {
     {"wheel.%s.travel", "m", "wheel %s: suspension travel along the chassis' y, from unloaded", EACH(report.marching.wheel, travel.y)},
     {"wheel.%s.deflection", "m", "wheel %s: tyre deflection", EACH(report.marching.wheel, deflection)},
     {"wheel.%s.tyre_force", "N", "wheel %s: vertical tyre force", EACH(report.marching.wheel, normal)},
-    {"wheel.%s.along", "N", "wheel %s: tyre force along the way", EACH(report.marching.wheel, along)},
-    {"wheel.%s.side", "N", "wheel %s: tyre force across the way", EACH(report.marching.wheel, side)},
+    {"wheel.%s.along", "N", "wheel %s: longitudinal tyre force", EACH(report.marching.wheel, along)},
+    {"wheel.%s.side", "N", "wheel %s: lateral tyre force", EACH(report.marching.wheel, side)},
 };
 static const quantity of_jets[] = {
     {"jet.force", "N", "force of the jets of rockets that have left on the elevation platform, along -x of T", AT(report.jet)},

@@ -106,7 +106,7 @@ static ld_status check_equilibrium(ld_mstmm *s, const double *q, const double *t
     }
     if (!(off <= 1e-6 * fmax(size, 1e-9)))
         return ld_fail(error, LD_ERR_INPUT,
-                       "the state is no equilibrium: a force of %.3g N or N m is not balanced",
+                       "the state is not an equilibrium: a force of %.3g N or N m is not balanced",
                        off);
     return LD_OK;
 }
@@ -132,8 +132,7 @@ static ld_status solve(linear *l, ld_error *error)
     if (info == EIGEN_NO_MEMORY)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a vibration analysis");
     return info ? ld_fail(error, LD_ERR_NUMERIC,
-                          "the eigenvalues of the linearised system do not "
-                          "come out")
+                          "the eigenvalues of the linearised system cannot be computed")
                 : LD_OK;
 }
 

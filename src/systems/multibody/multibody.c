@@ -82,11 +82,10 @@ static ld_status check_element(const ld_mstmm_element *e, int index, ld_error *e
         return ld_fail(error, LD_ERR_INPUT, "element '%s': its mass is negative (%g kg)", e->name,
                        e->mass);
     if (!is_inertia(e->inertia))
-        return ld_fail(
-            error, LD_ERR_INPUT,
-            "element '%s': its inertia is that of no body (each principal moment must be "
-            "positive or 0 and none above the sum of the other two)",
-            e->name);
+        return ld_fail(error, LD_ERR_INPUT,
+                       "element '%s': its inertia is impossible (each principal moment must be "
+                       "positive or 0 and none above the sum of the other two)",
+                       e->name);
     return LD_OK;
 }
 

@@ -468,13 +468,13 @@ ld_status ld_mstmm_accelerations_overall(ld_mstmm *s, ld_mstmm_form form, const 
             *report = (ld_mstmm_overall){.order = o.equation_count, .loss = loss};
             if (!(loss < 1e-9))
                 snprintf(report->warning, sizeof report->warning,
-                         "the overall form cannot hold here: it is off by %.1e of the largest "
+                         "the overall form fails on this system: its error is %.1e of the largest "
                          "acceleration; use the reduced sweep",
                          loss);
         }
         if (!(loss < 0.1))
             status = ld_fail(error, LD_ERR_NUMERIC,
-                             "the overall form has no digits left on this system (%d hinge "
+                             "the overall form loses all digits on this system (%d hinge "
                              "accelerations); use the reduced sweep",
                              s->axis_count);
     }
