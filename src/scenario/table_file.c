@@ -101,6 +101,17 @@ static double header_factor(line_reader *lines, const field_row *column, int i)
     return NAN;
 }
 
+// Refuses names beyond the table's columns.
+static void check_header_end(line_reader *lines, int columns)
+{
+    char text[128];
+    if (lines->at.count <= columns)
+        return;
+    snprintf(text, sizeof text, "found %d columns in the header; expected %d", lines->at.count,
+             columns);
+    line_refuse(lines, columns, text);
+}
+
 // One number of a row, in SI; checks its range. `first`: of the first row.
 static void read_cell(line_reader *lines, const field_row *column, int i, double factor, bool first,
                       double *value)
@@ -164,6 +175,8 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
                 strchr("0123456789+-.", lines->at.field[0][0]);
     for (int i = 0; i < format->columns && !lines->failed; i++)
         factor[i] = bare ? 1 : header_factor(lines, &format->column[i], i);
+    if (!bare && !lines->failed)
+        check_header_end(lines, format->columns);
     if (bare)
         read_csv_row(lines, format, factor, table);
     while (line_next(lines, '#', true) && !lines->failed)
