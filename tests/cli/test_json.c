@@ -198,8 +198,7 @@ static void test_exit_errors(void **state)
     char line[128];
     snprintf(line, sizeof line, "through integration errors: %.3g %% of 4 rockets\n",
              25 * number[1]);
-    assert_int_equal(run("launchdyn study show e | grep 'exit rates off by more than 1 %'"),
-                     0);
+    assert_int_equal(run("launchdyn study show e | grep 'exit rates off by more than 1 %'"), 0);
     expect_in(shell.out, line);
 }
 

@@ -94,6 +94,15 @@ FIND(contact_frequency)
     return plausible_alone(sqrt(rocket->contact.stiffness / rocket->full.mass) / (2 * PI));
 }
 
+// Decay time [s] of the rocket's motion by the damping of one contact.
+FIND(contact_time)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    double damping = rocket->contact.damping;
+    return plausible_compare(damping > 0 ? rocket->full.mass / damping : NAN,
+                             at->model->run.max_step);
+}
+
 FIND(release_force)
 {
     const ld_rocket *rocket = &at->model->rocket;
@@ -332,6 +341,9 @@ const plausible_rule plausible_of_rocket[] = {
     {"rocket.contact.stiffness", "the frequency of the rocket on it", .unit = "Hz", .low = 2,
      .high = 5000, .find = contact_frequency,
      .why = "metal on metal is stiff, but a touch lasts longer than 0.1 ms"},
+    {"rocket.contact.damping", "the decay time of the rocket's motion", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = contact_time, .of = "rocket.mass",
+     .why = "the integrator needs many short steps to follow it"},
     {"rocket.contact.reference_penetration", .unit = "m", .low = 1e-6, .high = 0.02,
      .why = "penetrations are fractions of a millimetre"},
     {"rocket.contact.reference_speed", .unit = "m/s", .low = 1e-3, .high = 50,

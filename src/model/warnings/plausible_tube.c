@@ -131,19 +131,22 @@ FIND(support_time)
                              at->model->run.max_step);
 }
 
-// Time [s] in which their rotational dampers across the axis take the turning of the tube, as of a
-// rod, the shortest.
+// Shortest decay time [s] of the tube's rotation by their rotational dampers; across the axis as of
+// a rod.
 FIND(support_turning_time)
 {
     const ld_tubes *tubes = &at->model->tubes;
-    double inertia = estimate_tube_mass(tubes) * tubes->length * tubes->length / 12, damping[2];
-    for (int axis = 0; axis < 2; axis++) {
-        damping[axis] = 0;
+    double rod = estimate_tube_mass(tubes) * tubes->length * tubes->length / 12;
+    const double inertia[3] = {tubes->section->polar_inertia * tubes->length, rod, rod};
+    double shortest = INFINITY;
+    for (int axis = 0; axis < 3; axis++) {
+        double damping = 0;
         for (int i = 0; i < tubes->support_count; i++)
-            damping[axis] += tubes->support[i].rotational_damping[1 + axis];
+            damping += tubes->support[i].rotational_damping[axis];
+        if (damping > 0)
+            shortest = fmin(shortest, inertia[axis] / damping);
     }
-    double greatest = fmax(damping[0], damping[1]);
-    return plausible_compare(greatest > 0 ? inertia / greatest : NAN, at->model->run.max_step);
+    return plausible_compare(isfinite(shortest) ? shortest : NAN, at->model->run.max_step);
 }
 
 // Time [s] in which a slide's damper takes the tube's recoil.

@@ -185,13 +185,27 @@ static plausible_pair hinge_time(const plausible_entry *at, double damping, doub
                              at->model->run.max_step);
 }
 
+// Decay time [s] of a wheel's motion by a damper [N s/m].
+static plausible_pair wheel_time(const plausible_entry *at, double damping)
+{
+    if (!(damping > 0))
+        return plausible_nothing();
+    return plausible_compare(vehicle_of(at)->wheel[0].mass / damping, at->model->run.max_step);
+}
+
 FIND(tyre_time)
 {
-    const ld_vehicle *vehicle = vehicle_of(at);
-    if (!(vehicle->tyre.damping[1] > 0))
-        return plausible_nothing();
-    return plausible_compare(vehicle->wheel[0].mass / vehicle->tyre.damping[1],
-                             at->model->run.max_step);
+    return wheel_time(at, vehicle_of(at)->tyre.damping[1]);
+}
+
+FIND(suspension_time_along)
+{
+    return wheel_time(at, vehicle_of(at)->suspension.damping[0]);
+}
+
+FIND(suspension_time_across)
+{
+    return wheel_time(at, vehicle_of(at)->suspension.damping[2]);
 }
 
 FIND(azimuth_angle)
@@ -369,6 +383,12 @@ const plausible_rule plausible_of_vehicle[] = {
     {"base.suspension.damping.y", "the damping ratio of the heave", .unit = "", NO_LOW, .high = 2,
      .find = heave_damping, .of = "base.suspension.stiffness.y",
      .why = "that of lorries is 0.2 to 0.5"},
+    {"base.suspension.damping.x", "the decay time of a wheel's motion", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = suspension_time_along,
+     .of = "base.wheels.#.mass", .why = "the integrator needs many short steps to follow it"},
+    {"base.suspension.damping.z", "the decay time of a wheel's motion", .unit = "s",
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = suspension_time_across,
+     .of = "base.wheels.#.mass", .why = "the integrator needs many short steps to follow it"},
     {"base.suspension.bump_stop.compression", .unit = "m", .other = "the static travel", .low = 1,
      NO_HIGH, .find = stop_by_sag, .of = "base.suspension.stiffness.y",
      .why = "the vehicle stands on its stops"},
