@@ -142,8 +142,12 @@ static bool has_words(const command *self, const command_line *line, int count)
     if (count == COMMAND_WORDS ? line->count > 0 : count < 0 || line->count == (size_t)count)
         return true;
     char call[HELP_CALL];
-    command_complain("%s requires %s; see %s --help", self->name, self->arguments,
-                     help_call(self, call));
+    help_call(self, call);
+    if (self->arguments[0])
+        command_complain("%s requires %s; see %s --help", self->name, self->arguments, call);
+    else
+        command_complain("%s takes options only, found \"%.80s\"; see %s --help", self->name,
+                         line->word[0], call);
     return false;
 }
 

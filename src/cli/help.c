@@ -31,7 +31,8 @@ static void print_examples(const command *self)
 static void print_text(const command *self, const command_option *options)
 {
     char call[HELP_CALL];
-    printf("%s\n\nUsage: %s %s\n", self->summary, help_call(self, call), self->arguments);
+    printf("%s\n\nUsage: %s%s%s\n", self->summary, help_call(self, call),
+           self->arguments[0] ? " " : "", self->arguments);
     options_print(options);
     if (self->about) {
         putchar('\n');

@@ -93,7 +93,8 @@ static void test_refusals(void **state)
     expect_complaint("ulimit -f 1; launchdyn new --out b.yaml", 3, "cannot write b.yaml: File too");
     assert_int_equal(run("test -e b.yaml"), 1);
     expect_complaint("launchdyn new >/dev/full", 3, "cannot print: No space left on device");
-    expect_complaint("launchdyn new a b", 2, "new requires");
+    expect_complaint("launchdyn new a b", 2,
+                     "launchdyn: new takes options only, found \"a\"; see launchdyn new --help\n");
 }
 
 int main(void)
