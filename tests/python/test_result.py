@@ -78,9 +78,13 @@ class TestBits(Case):
     def test_none_takes_away_what_another_base_has(self):
         with self.assertRaisesRegex(ld.InputError, "base.elevation: is not allowed with"):
             ld.Scenario.read(FIXED, {"base.kind": "external"})
-        scenario = ld.Scenario.read(FIXED, {"base": None, "base.kind": "external"})
-        with scenario.begin(ld.BaseFrame((0, 0, 0), (1, 0, 0, 0))) as run:
-            self.assertEqual(len(run.wrench()), 2)
+        for example, keys in (("fixed", ()), ("reference", ("platform",)),
+                              ("salvo", ("platform", "scatter")), ("ship-sea", ("scatter",)),
+                              ("marching/ramp", ("platform", "measures"))):
+            changes = {"base": None, "base.kind": "external"} | dict.fromkeys(keys)
+            scenario = ld.Scenario.read(EXAMPLES / f"{example}.yaml", changes)
+            with scenario.begin(ld.BaseFrame((0, 0, 0), (1, 0, 0, 0))) as run:
+                self.assertEqual(len(run.wrench()), 2)
 
     def test_a_flight_alone(self):
         result = ld.Scenario.read(EXAMPLES / "flight.yaml").run()
