@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/warnings/plausible.h"
+#include "support/markdown.h"
 
 static char *read_whole(const char *path)
 {
@@ -22,11 +23,7 @@ static char *read_whole(const char *path)
 // belongs there beside its tests.
 static void check_part(const char *name, void (*write)(FILE *stream))
 {
-    char *tables = NULL, begin_mark[64], end_mark[64], file[512];
-    size_t length = 0;
-    FILE *stream = open_memstream(&tables, &length);
-    write(stream);
-    fclose(stream);
+    char *tables = markdown_wrapped(write), begin_mark[64], end_mark[64], file[512];
     snprintf(file, sizeof file, "%s/scenario-%s.md", LD_BINARY_DIR, name);
     FILE *record = fopen(file, "w");
     assert_non_null(record);

@@ -15,6 +15,7 @@
 #include "run/vehicle_run.h"
 #include "state/history.h"
 #include "state/simulation.h"
+#include "support/markdown.h"
 #include "support/reference_model.h"
 #include "support/scratch.h"
 
@@ -257,7 +258,7 @@ static void write_names(FILE *stream, const quantity *row, int count)
 {
     for (int i = 0; i < count; i++) {
         const char *mark = strstr(row[i].name, "%s");
-        fputs(i ? ", `" : "`", stream);
+        fputs(i ? ", `" : "- `", stream);
         if (mark)
             fprintf(stream, "%.*sNAME%s`", (int)(mark - row[i].name), row[i].name, mark + 2);
         else
@@ -273,45 +274,52 @@ static bool are_alike(const quantity *a, const quantity *b)
            a->studied == b->studied && strcmp(a->description, b->description) == 0;
 }
 
-// heading NULL: it goes on under that of before.
-static void write_table(FILE *stream, const char *heading, const quantity_table *table,
-                        bool of_summary)
+// The description without "adaptor %s: ", which its name says; where it is inside, NAME.
+static void write_description(FILE *stream, const char *text)
+{
+    const char *mark = strstr(text, "%s"), *colon = mark ? strstr(mark, ": ") : NULL;
+    if (colon)
+        fputs(colon + 2, stream);
+    else if (mark)
+        fprintf(stream, "%.*sNAME%s", (int)(mark - text), text, mark + 2);
+    else
+        fputs(text, stream);
+}
+
+// " (`path`)", where it is not the name.
+static void write_path(FILE *stream, const char *path)
+{
+    const char *mark = path ? strstr(path, ".%s") : NULL;
+    if (mark)
+        fprintf(stream, " (`%.*s%s`)", (int)(mark - path), path, mark + 3);
+    else if (path)
+        fprintf(stream, " (`%s`)", path);
+}
+
+static void write_row(FILE *stream, const quantity *row, int count)
+{
+    write_names(stream, row, count);
+    if (!row->unit || (*row->unit && strcmp(row->unit, "1") != 0))
+        fprintf(stream, " [%s]", row->unit ? row->unit : "its own");
+    fprintf(stream, "%s: ", row->studied ? "\\*" : "");
+    write_description(stream, row->description);
+    write_path(stream, row->json);
+    fputc('\n', stream);
+}
+
+// heading NULL: it continues under the one before.
+static void write_table(FILE *stream, const char *heading, const quantity_table *table)
 {
     if (heading)
         fprintf(stream, "\n## %s\n", heading);
     for (int i = 0; i < table->groups; i++) {
         const quantity_group *group = &table->group[i];
         fprintf(stream, "\n**%c%s**\n\n", group->title[0] - 'a' + 'A', group->title + 1);
-        fputs(of_summary
-                  ? "| quantity | unit | is | in `summary.json` | study |\n| --- | --- | --- "
-                    "| --- | --- |\n"
-                  : "| column | unit | is |\n| --- | --- | --- |\n",
-              stream);
         for (int k = 0, next; k < group->rows; k = next) {
-            const quantity *row = &group->row[k];
-            for (next = k + 1; next < group->rows && are_alike(row, &group->row[next]); next++)
+            for (next = k + 1; next < group->rows && are_alike(&group->row[k], &group->row[next]);
+                 next++)
                 ;
-            char is[512], path[QUANTITY_NAME];
-            snprintf(is, sizeof is, "%s", row->description);
-            const char *mark = strstr(row->description, "%s");
-            if (mark)
-                snprintf(is, sizeof is, "%.*sNAME%s", (int)(mark - row->description),
-                         row->description, mark + 2);
-            mark = row->json ? strstr(row->json, ".%s") : NULL;
-            snprintf(path, sizeof path, "%s", row->json ? row->json : "");
-            if (mark)
-                snprintf(path, sizeof path, "%.*s%s", (int)(mark - row->json), row->json, mark + 3);
-            fputs("| ", stream);
-            write_names(stream, row, next - k);
-            fprintf(stream, " | %s | %s |",
-                    !row->unit   ? "its own"
-                    : *row->unit ? row->unit
-                                 : "1",
-                    is);
-            if (of_summary)
-                fprintf(stream, " %s%s%s | %s |", *path ? "`" : "", path, *path ? "`" : "",
-                        row->studied ? "yes" : "");
-            fputc('\n', stream);
+            write_row(stream, &group->row[k], next - k);
         }
     }
 }
@@ -320,44 +328,39 @@ static void write_document(FILE *stream)
 {
     fputs(
         "# Quantities\n\n"
-        "Which numbers and columns does a run give? These tables are generated from the program's "
-        "own\n"
-        "(`ctest -R results.quantities`). All values are in SI and radians.\n\n"
-        "- Frames ([model.md](model.md)): I inertial, T the undeformed tube on its base\n"
-        "  ([results.md](results.md#against-the-launcher)), R the floating frame of the tube, S "
-        "its "
-        "section at the rear\n  adaptor, B the rocket.\n"
+        "Which numbers and columns does a run give? These lists are generated from the program's "
+        "tables (`ctest -R results.quantities`). Values are in SI and radians; a unit in brackets "
+        "is left out where there is none.\n\n"
+        "- Frames ([model.md](model.md)): I inertial, T the undeformed tube on its base "
+        "([results.md](results.md#against-the-launcher)), R the floating frame of the tube, S its "
+        "section at the rear adaptor, B the rocket.\n"
         "- NAME is an adaptor or shoe, wheel, hinge (`azimuth`, `elevation`), parachute, modal "
-        "coordinate or\n  [measure](scenario.md#measures), or the number of a station, support or "
+        "coordinate or [measure](scenario.md#measures), or the number of a station, support or "
         "slide.\n"
         "- Instants count from the rocket's ignition unless stated; what did not happen is `null` "
-        "or "
-        "NaN.\n"
-        "- In `summary.json` a quantity has its own name unless another path is given. `study`: "
-        "[studies](study.md) keep it.\n",
+        "or NaN.\n"
+        "- In `summary.json` a quantity has its own name, or the path in brackets. Studies keep "
+        "those with \\* ([study.md](study.md)).\n",
         stream);
-    write_table(stream, "Of a rocket (`rockets` of summary.json)", &rocket_quantities, true);
-    write_table(stream, "Of the run", &run_quantities, true);
-    write_table(stream, "Of its computation", &cost_quantities, true);
-    write_table(stream, "Of a natural mode (`modes` of summary.json)", &mode_quantities, true);
-    write_table(stream, "Columns of a launch", &launch_quantities, false);
-    write_table(stream, NULL, base_vehicle.quantities, false);
-    write_table(stream, NULL, base_fmu.quantities, false);
-    write_table(stream, NULL, &balance_quantities, false);
-    write_table(stream, "Columns of a flight", &flight_quantities, false);
-    write_table(stream, "Columns of a vehicle alone", &vehicle_clock_quantities, false);
+    write_table(stream, "Of a rocket (`rockets` of summary.json)", &rocket_quantities);
+    write_table(stream, "Of the run", &run_quantities);
+    write_table(stream, "Of its computation", &cost_quantities);
+    write_table(stream, "Of a natural mode (`modes` of summary.json)", &mode_quantities);
+    write_table(stream, "Columns of a launch", &launch_quantities);
+    write_table(stream, NULL, base_vehicle.quantities);
+    write_table(stream, NULL, base_fmu.quantities);
+    write_table(stream, NULL, &balance_quantities);
+    write_table(stream, "Columns of a flight", &flight_quantities);
+    write_table(stream, "Columns of a vehicle alone", &vehicle_clock_quantities);
     fputs("\nThen chassis, hinges, drive and wheels as of a launch.\n", stream);
-    write_table(stream, NULL, &vehicle_balance_quantities, false);
+    write_table(stream, NULL, &vehicle_balance_quantities);
 }
 
 static void test_document(void **state)
 {
     (void)state;
-    char *text = NULL, *kept = NULL;
-    size_t length = 0, kept_length = 0;
-    FILE *stream = open_memstream(&text, &length);
-    write_document(stream);
-    fclose(stream);
+    char *text = markdown_wrapped(write_document), *kept = NULL;
+    size_t length = strlen(text), kept_length = 0;
     text_file_read(LD_SOURCE_DIR "/docs/quantities.md", 1 << 20, &kept, &kept_length, NULL);
     if (!kept || kept_length != length || memcmp(kept, text, length) != 0) {
         FILE *file = fopen(LD_BINARY_DIR "/quantities.md", "w");

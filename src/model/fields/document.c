@@ -1,14 +1,14 @@
-// The tables of the scenario language as Markdown.
+// The tables of the scenario language as Markdown: a list for each block, a line for each key.
 #include "model/fields/field.h"
 
 #include <math.h>
 #include <string.h>
 
-// Prints `text` with the characters escaped that would end a cell or start a tag.
-static void cell(FILE *stream, const char *text)
+// Prints `text` with the characters escaped that would start a tag, or a quotation in a new line.
+static void write_text(FILE *stream, const char *text)
 {
     for (; *text; text++)
-        fprintf(stream, *text == '|' || *text == '<' ? "\\%c" : "%c", *text);
+        fprintf(stream, *text == '<' || *text == '>' ? "\\%c" : "%c", *text);
 }
 
 // A range with its unit, "0 to 100 m"; the unit alone where all is allowed.
@@ -18,7 +18,7 @@ static void write_range(FILE *stream, const field_row *f)
     field_range_text(f, range, sizeof range);
     if (!range[0])
         snprintf(range, sizeof range, "%s", strcmp(f->unit, "rad") == 0 ? "deg" : f->unit);
-    cell(stream, strncmp(range, "from ", 5) == 0 ? range + 5 : range);
+    write_text(stream, strncmp(range, "from ", 5) == 0 ? range + 5 : range);
 }
 
 static void write_number(FILE *stream, const field_row *f)
@@ -93,8 +93,8 @@ static void write_kind(FILE *stream, const field_row *f)
         write_words(stream, f, "");
     else if (f->kind == FIELD_INTEGER && f->range.low < f->range.high)
         fprintf(stream, "whole, %g to %.9g", f->range.low, f->range.high);
-    else if (f->kind == FIELD_WORD)
-        fprintf(stream, "name");
+    else if (f->kind == FIELD_WORD || f->kind == FIELD_QUANTITY)
+        fprintf(stream, f->kind == FIELD_WORD ? "name" : "name with points");
     else if (f->kind == FIELD_TEXT || f->kind == FIELD_FILE)
         fprintf(stream, f->kind == FIELD_TEXT ? "text" : "file");
     else if (f->kind == FIELD_BLOCK)
@@ -104,37 +104,37 @@ static void write_kind(FILE *stream, const field_row *f)
                 f->alternative ? ", or a block" : "");
     else {
         field_expectation(f, text, sizeof text);
-        cell(stream, text);
+        write_text(stream, text);
     }
     if (f->kind == FIELD_BLOCK)
         write_words(stream, f, ", ");
 }
 
-static void write_default(FILE *stream, const field_row *f)
+// The numbers of a default, in the unit of the range.
+static void write_numbers(FILE *stream, const field_row *f)
 {
     char number[32];
     bool angle = f->unit && strcmp(f->unit, "rad") == 0;
     double scale = angle ? 180 / 3.14159265358979323846 : 1;
-    if (f->required) {
-        fprintf(stream, "required");
-        if (f->optional)
-            fprintf(stream, "; %s", f->initial_doc);
-        return;
-    }
-    if (f->initial_doc) {
-        cell(stream, f->initial_doc);
-        return;
-    }
-    if (f->kind == FIELD_CHOICE) {
-        cell(stream, field_word_of(f->words, (int)f->initial)->name);
-        return;
-    }
     for (int i = 0; i < (f->kind == FIELD_NUMBER ? f->count : 1); i++) {
         field_number_text((f->initials ? f->initials[i] : f->initial) * scale, number);
         fprintf(stream, "%s%s", i ? " " : "", number);
     }
-    if (f->unit && f->unit[0])
-        fprintf(stream, " %s", angle ? "deg" : f->unit);
+}
+
+// " (0)"; nothing of a key that is required in all forms.
+static void write_default(FILE *stream, const field_row *f)
+{
+    if (f->required && !f->optional)
+        return;
+    fprintf(stream, " (");
+    if (f->initial_doc)
+        write_text(stream, f->initial_doc);
+    else if (f->kind == FIELD_CHOICE)
+        write_text(stream, field_word_of(f->words, (int)f->initial)->name);
+    else
+        write_numbers(stream, f);
+    fprintf(stream, ")");
 }
 
 // Whether an earlier key of the block has the same keys below it.
@@ -158,8 +158,10 @@ static void path_below(char *text, size_t size, const field_row *f, const char *
         }
 }
 
-// The forms of its block that a key goes with, or the one that it does not go with.
-static void write_forms(FILE *stream, const field_block *block, const field_row *f)
+// The forms of its block in which a key is allowed, or the one in which it is not, behind the first
+// or the second start: "only with `kind: fmu`"; nothing where it is allowed in all.
+static void write_forms(FILE *stream, const field_block *block, const field_row *f,
+                        const char *const start[2], const char *end)
 {
     int has = 0, all = 0;
     for (const field_word *w = block->form; f->forms && w->name; w++)
@@ -167,37 +169,80 @@ static void write_forms(FILE *stream, const field_block *block, const field_row 
             all++;
             has += field_has_form(f, w->value);
         }
-    bool negative = has > 1 && has == all - 1;
-    const char *between = negative ? "; not with " : "; only with ";
-    bool list = false;
-    for (const field_word *w = block->form; has < all && w->name; w++) {
+    if (has == all)
+        return;
+    bool negative = has > 1 && has == all - 1, list = false;
+    fprintf(stream, "%s with ", start[negative]);
+    for (const field_word *w = block->form; w->name; w++) {
         if (w->value < 0 || field_has_form(f, w->value) == negative)
             continue;
         if (!block->form_key)
-            fprintf(stream, "%s%s", between, w->name);
+            fprintf(stream, "%s%s", list ? ", " : "", w->name);
         else
-            fprintf(stream, "%s`%s%s%s`", between, list ? "" : block->form_key, list ? "" : ": ",
-                    w->name);
-        between = ", ";
+            fprintf(stream, "%s`%s%s%s`", list ? ", " : "", list ? "" : block->form_key,
+                    list ? "" : ": ", w->name);
         list = true;
     }
+    fputs(end, stream);
+}
+
+// How many keys of the block are allowed in the same forms as this one, and whether it is the
+// first.
+static int count_alike(const field_block *block, const field_row *f, bool *first)
+{
+    int alike = 0;
+    *first = true;
+    for (const field_row *g = block->fields; g->name; g++) {
+        alike += g->forms == f->forms;
+        *first &= g >= f || g->forms != f->forms;
+    }
+    return alike;
+}
+
+enum { OWN_LIST = 3 }; // so many keys of the same forms have a list
+
+static bool has_own_list(const field_block *block, const field_row *f)
+{
+    bool first;
+    return f->forms && count_alike(block, f, &first) >= OWN_LIST;
+}
+
+static void write_row(FILE *stream, const field_block *block, const field_row *f)
+{
+    const char *bold = f->required ? "**" : "";
+    fprintf(stream, "- %s`%s`%s ", bold, f->name, bold);
+    write_kind(stream, f);
+    write_default(stream, f);
+    fprintf(stream, ": ");
+    write_text(stream, f->doc);
+    if (!has_own_list(block, f))
+        write_forms(stream, block, f, (const char *const[]){"; only", "; not"}, "");
+    fprintf(stream, "\n");
+}
+
+// The keys that are allowed in the forms of `like`; NULL: those without a list of their own.
+static void write_keys(FILE *stream, const field_block *block, const field_row *like)
+{
+    fprintf(stream, "\n");
+    for (const field_row *f = block->fields; f->name; f++)
+        if (like ? f->forms == like->forms : !has_own_list(block, f))
+            write_row(stream, block, f);
 }
 
 static void write_block(FILE *stream, const field_block *block, const char *path)
 {
     char full_path[160];
-    fprintf(stream, "\n### %s\n\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n",
-            path[0] ? path : "The whole file");
-    for (const field_row *f = block->fields; f->name; f++) {
-        fprintf(stream, "| `%s` | ", f->name);
-        write_kind(stream, f);
-        fprintf(stream, " | ");
-        write_default(stream, f);
-        fprintf(stream, " | ");
-        cell(stream, f->doc);
-        write_forms(stream, block, f);
-        fprintf(stream, " |\n");
-    }
+    bool first, rest = false;
+    fprintf(stream, "\n### %s\n", path[0] ? path : "The whole file");
+    for (const field_row *f = block->fields; f->name; f++)
+        rest |= !has_own_list(block, f);
+    if (rest)
+        write_keys(stream, block, NULL);
+    for (const field_row *f = block->fields; f->name; f++)
+        if (f->forms && count_alike(block, f, &first) >= OWN_LIST && first) {
+            write_forms(stream, block, f, (const char *const[]){"\nOnly", "\nNot"}, ":\n");
+            write_keys(stream, block, f);
+        }
     for (const field_row *f = block->fields; f->name; f++) {
         if (!f->block || is_repeated(block, f))
             continue;

@@ -55,7 +55,7 @@ static const field_word earth_models[] = {
     {"round", LD_EARTH_ROUND}, {"wgs84", LD_EARTH_WGS84}, {NULL, 0}};
 static const field_row earth_fields[] = {
     {"model", CHOICE(ld_earth, model, earth_models), .required = true,
-     .doc = "figure whose numbers those below replace"},
+     .doc = "figure of the Earth; the keys below replace its numbers"},
     {"gm", NUMBER(ld_earth, gm, "m3/s2"), POSITIVE, NO_DEFAULT("3.986004418e14 m3/s2"),
      .doc = "gravitational constant times mass"},
     {"j2", NUMBER(ld_earth, j2, ""), FROM_TO(-0.1, 0.1),
@@ -64,7 +64,7 @@ static const field_row earth_fields[] = {
      NO_DEFAULT("7.292115e-5 rad/s"), .doc = "about the polar axis"},
     {"radius", NUMBER(ld_earth, radius, "m"), FROM_TO(1e5, 1e9),
      NO_DEFAULT("6378137 m (wgs84), 6371007.1809 m (round)"),
-     .doc = "of the equator, or of the sphere; flattening of wgs84: 1/298.257223563"},
+     .doc = "of the equator or sphere; flattening of wgs84: 1/298.257223563"},
     {0}};
 static const field_block earth_block = {.fields = earth_fields};
 
@@ -74,9 +74,9 @@ static const field_row site_fields[] = {
     {"longitude", NUMBER(ld_site, longitude, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
      .doc = "positive to the east"},
     {"altitude", NUMBER(ld_site, altitude, "m"), FROM_TO(-5000, 1e7), DEFAULT(0),
-     .doc = "above the ellipsoid; on a flat Earth of y = 0, for the air"},
+     .doc = "above the ellipsoid; flat Earth: altitude of y = 0"},
     {"azimuth", NUMBER(ld_site, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(PI / 2),
-     .doc = "of I's x axis, clockwise from north"},
+     .doc = "of x of I, clockwise from north"},
     {0}};
 static const field_block site_block = {.fields = site_fields};
 static const field_word site_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
@@ -108,8 +108,8 @@ static const field_row atmosphere_fields[] = {
      UNIFORM_AIR, .doc = "the same everywhere"},
     {"profile", TABLE(ld_atmosphere, profile, dry_air_table), .required = true,
      .forms = FORM(LD_ATMOSPHERE_PROFILE),
-     .doc = "measured air over the altitude, with relative humidity over water or dry; below and "
-            "above its rows us1976, scaled so that it goes on where they end"},
+     .doc = "measured air over the altitude, with relative humidity over water or dry; outside its "
+            "rows us1976, scaled to continue"},
     {0}};
 static const field_block atmosphere_block = {.fields = atmosphere_fields,
                                              .form = atmosphere_forms,
@@ -120,13 +120,13 @@ static const field_row gust_fields[] = {
     {"start", NUMBER(ld_gust, start, "s"), FROM_TO(-10000, 10000), REQUIRED,
      .doc = "on the run's clock"},
     {"rise", NUMBER(ld_gust, rise, "s"), ABOVE_TO(0, 10000), REQUIRED,
-     .doc = "half a cosine from nothing to the full speed"},
+     .doc = "half a cosine up to the full speed"},
     {"hold", NUMBER(ld_gust, hold, "s"), FROM_TO(0, 10000), DEFAULT(0), .doc = "at the full speed"},
     {"fall", NUMBER(ld_gust, fall, "s"), ABOVE_TO(0, 10000), NO_DEFAULT("as rise"),
-     .doc = "half a cosine back to nothing"},
+     .doc = "half a cosine down to 0"},
     {"speed", NUMBER(ld_gust, speed, "m/s"), FROM_TO(-1000, 1000), REQUIRED, .doc = "full speed"},
     {"heading", NUMBER(ld_gust, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
-     .doc = "where it goes to, as that of the wind"},
+     .doc = "direction to which it blows, as of the wind"},
     {0}};
 static const field_block gust_block = {.fields = gust_fields};
 
@@ -136,9 +136,9 @@ static const field_row turbulence_fields[] = {
     {"model", CHOICE(ld_turbulence, model, turbulence_models), DEFAULT(LD_TURBULENCE_DRYDEN),
      .doc = "Dryden spectra with the scales and intensities of MIL-F-8785C"},
     {"wind_at_6m", NUMBER(ld_turbulence, wind_at_6m, "m/s"), FROM_TO(0, 100), REQUIRED,
-     .doc = "wind speed at 20 ft that sets the intensity; it adds no wind"},
+     .doc = "wind speed at 20 ft, which sets the intensity; adds no wind"},
     {"seed", INTEGER(ld_turbulence, seed, 0, 999999999), DEFAULT(1),
-     .doc = "of the random phases and wave numbers"},
+     .doc = "of phases and wave numbers"},
     {"harmonics", INTEGER(ld_turbulence, harmonics, 1, 1000), DEFAULT(100),
      .doc = "cells of each spectrum"},
     {0}};
@@ -157,19 +157,19 @@ static const field_word wind_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_row wind_fields[] = {
     {"axes", CHOICE(ld_wind, axes, wind_axes), DEFAULT(LD_WIND_LAUNCHER),
      .doc = "headings from x of I and heights above ground, or headings from north and altitudes; "
-            "positive to the right"},
+            "clockwise"},
     {"speed", NUMBER(ld_wind, speed, "m/s"), FROM_TO(-1000, 1000), DEFAULT(0),
      .doc = "at every height, in place of a profile"},
     {"heading", NUMBER(ld_wind, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
-     .doc = "where the air goes to; 0: a tail wind along x"},
+     .doc = "direction to which the air moves; 0: tail wind along x"},
     {"profile", TABLE(ld_wind, profile, wind_table), .other = offsetof(ld_wind, axes),
      .initial_doc = "none",
-     .doc = "velocity along x and z over the height above ground (geographic: north and east over "
-            "the altitude), pchip between rows, constant outside"},
+     .doc = "velocity along x and z over height (geographic: north and east over altitude), pchip, "
+            "constant outside"},
     {"scale", NUMBER(ld_wind, scale, ""), FROM_TO(-1000, 1000), DEFAULT(1),
      .doc = "factor on speed or profile"},
     {"add", VECTOR(ld_wind, add, "m/s", 3), FROM_TO(-1000, 1000), DEFAULT(0),
-     .doc = "velocity added then, along x, y, z (geographic: north, up, east)"},
+     .doc = "added velocity along x, y, z (geographic: north, up, east)"},
     {"gust", LIST(ld_wind, gust, gust_count, gust_block, 0, LD_MAX_GUSTS), .initial_doc = "none",
      .doc = "gusts, uniform in space"},
     {"turbulence", BLOCK(ld_wind, turbulence, turbulence_block), .initial_doc = "none",
@@ -184,29 +184,28 @@ static const field_word ground_words[] = {
 static const field_row environment_fields[] = {
     {"earth", BLOCK(ld_model, environment.earth, earth_block), .initial_doc = "flat",
      SWITCH(ld_model, environment.earth.kind, earth_words),
-     .doc = "figure of the Earth in free flight; flat: I is inertial and gravity is constant"},
+     .doc = "Earth in free flight; flat: I is inertial, gravity constant"},
     {"gravity", NUMBER(ld_model, gravity, "m/s2"), FROM_TO(0, 100), DEFAULT(9.80665),
-     .doc = "along -y of I; in free flight of a flat Earth"},
+     .doc = "along -y of I; in free flight: of a flat Earth"},
     {"site", BLOCK(ld_model, environment.site, site_block), .initial_doc = "none",
      SWITCH(ld_model, environment.site.present, site_words), .other_is_bool = true,
-     .doc = "place of I's origin on the Earth; none: as below, and on a flat Earth no map"},
+     .doc = "position of I's origin on the Earth; none: the defaults, and no map on a flat Earth"},
     {"atmosphere", BLOCK(ld_model, environment.atmosphere, atmosphere_block),
      .initial_doc = "us1976", SWITCH(ld_model, environment.atmosphere.kind, atmosphere_words),
-     .doc = "air about the rocket: US Standard Atmosphere 1976, uniform, or measured"},
+     .doc = "air: US Standard Atmosphere 1976, uniform or measured"},
     {"density_scale", NUMBER(ld_model, environment.atmosphere.density_scale, ""), FROM_TO(0, 1000),
      DEFAULT(1), .doc = "factor on the density of the air"},
     {"temperature_offset", NUMBER(ld_model, environment.atmosphere.temperature_offset, "K"),
      FROM_TO(-100, 100), DEFAULT(0),
-     .doc = "added to the temperature of us1976 or of a profile, at unchanged pressure"},
+     .doc = "added to the temperature of us1976 or profile, at unchanged pressure"},
     {"ground", CHOICE(ld_model, environment.ground, ground_words),
      .other = offsetof(ld_model, environment.ground_height), .unit = "m",
      .range = {-1e5, 1e7, 0, 0}, .initial_doc = "0 m, or the site's altitude",
      DEFAULT(LD_GROUND_PLANE),
-     .doc = "where free flight ends: y of a plane on a flat Earth, else the height above sphere or "
-            "ellipsoid, by default that of the site"},
+     .doc = "where free flight ends: y on a flat Earth, else height above sphere or ellipsoid"},
     {"wind", BLOCK(ld_model, environment.wind, wind_block), .initial_doc = "none",
      SWITCH(ld_model, environment.wind.present, wind_words), .other_is_bool = true,
-     .doc = "velocity of the air, where it goes to"},
+     .doc = "velocity of the air"},
     {0}};
 static const field_block environment_block = {.fields = environment_fields};
 
@@ -253,11 +252,10 @@ static const field_row motion_fields[] = {
     {"roll", SINES(roll, angle_sine_block), .doc = "sum of sines, about +x"},
     {"table", TABLE(ld_base, motion, motion_table), .other = offsetof(ld_base, motion_origin),
      .initial_doc = "none",
-     .doc =
-         "pose over time in place of sines and velocity, by cubic spline; q0 is the quaternion's "
-         "scalar part"},
+     .doc = "pose over time in place of sines and velocity, cubic spline; q0: scalar part of the "
+            "quaternion"},
     {"start", NUMBER(ld_base, motion_start, "s"), ANY, DEFAULT(0),
-     .doc = "time of the table's own clock that is 0 of the run's"},
+     .doc = "time of the table at 0 of the run's clock"},
     {0}};
 static const field_block motion_block = {.fields = motion_fields};
 
@@ -289,11 +287,10 @@ static const field_row response_columns[] = {
 static const table_format response_table = {TABLE_CSV, 13, response_columns, NULL};
 static const field_row response_fields[] = {
     {"heading", NUMBER(ld_sea_response, heading, "rad"), FROM_TO(0, PI), NO_DEFAULT("the sea's"),
-     .doc = "where the waves go to that it answers, from x; to the left sway, roll and yaw change "
-            "sides"},
+     .doc = "of the waves, from x; to the left sway, roll and yaw change sign"},
     {"table", TABLE(ld_sea_response, table, response_table), .required = true,
-     .doc = "over the waves' frequency amplitudes per wave amplitude and leads before the crest at "
-            "the base's origin; linear as complex numbers, constant below, nothing above"},
+     .doc = "over the wave frequency: amplitude per wave amplitude, phase lead on the crest at the "
+            "base's origin; complex linear, constant below, 0 above"},
     {0}};
 static const field_block response_block = {.fields = response_fields};
 static const field_word spectrum_words[] = {{"jonswap", LD_SEA_JONSWAP},
@@ -303,26 +300,24 @@ static const field_word spectrum_words[] = {{"jonswap", LD_SEA_JONSWAP},
 static const field_word sea_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_row sea_fields[] = {
     {"spectrum", CHOICE(ld_sea, spectrum, spectrum_words), DEFAULT(LD_SEA_JONSWAP),
-     .doc = "of the water's height; `regular`: one wave, its crest at the base's origin at t = 0"},
+     .doc = "of the water's height; `regular`: one wave, crest at the base's origin at t = 0"},
     {"height", NUMBER(ld_sea, height, "m"), FROM_TO(0, 100), REQUIRED,
-     .doc = "significant, four times the rms of the water's height; of one wave from trough to "
-            "crest"},
+     .doc = "significant height, four times the rms; of one wave trough to crest"},
     {"period", NUMBER(ld_sea, period, "s"), FROM_TO(0.1, 1000), REQUIRED,
-     .doc = "of the spectrum's peak; of one wave its own"},
+     .doc = "of the spectrum's peak, or of the wave"},
     {"peakedness", NUMBER(ld_sea, peakedness, ""), FROM_TO(1, 20), DEFAULT(3.3),
      .doc = "gamma of JONSWAP"},
     {"heading", NUMBER(ld_sea, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), REQUIRED,
-     .doc = "where the waves go to, from x of I, positive to the right; 180 deg: a head sea"},
+     .doc = "direction to which the waves travel, from x of I, positive to the right; 180 deg: "
+            "head sea"},
     {"spreading", NUMBER(ld_sea, spreading, ""), FROM_TO(0.5, 1000),
-     NO_DEFAULT("all waves go there"),
-     .doc = "s of the density cos^2s(angle/2) of the waves' headings"},
+     NO_DEFAULT("all waves go there"), .doc = "s of the density cos^2s(angle/2) of the headings"},
     {"waves", INTEGER(ld_sea, waves, 1, 10000), DEFAULT(200),
-     .doc = "their number, in cells of equal ratio of frequency"},
+     .doc = "number of waves, in cells of equal frequency ratio"},
     {"seed", INTEGER(ld_sea, seed, 0, 999999999), DEFAULT(1),
-     .doc = "of frequencies, phases and headings; the same seed is the same sea"},
+     .doc = "of frequencies, phases and headings"},
     {"responses", LIST(ld_sea, response, response_count, response_block, 1, LD_MAX_SEA_RESPONSES),
-     .required = true,
-     .doc = "the ship's, over rising headings; between them linear as complex numbers"},
+     .required = true, .doc = "of the ship over rising headings; complex linear between"},
     {0}};
 static const field_block sea_block = {.fields = sea_fields};
 
@@ -392,15 +387,14 @@ static const field_row road_fields[] = {
     {"class", CHOICE(ld_road, iso_class, class_words), DEFAULT(LD_ROAD_SMOOTH), SUM,
      .doc = "random part: class of ISO 8608"},
     {"tracks", CHOICE(ld_road, tracks, tracks_words), DEFAULT(LD_TRACKS_SAME), SUM,
-     .doc = "random part of left and right track (wheels with mount z < 0, others): the same, "
-            "independent, or coherent as the table says"},
+     .doc = "random part of left (wheels with mount z < 0) and right track: same, independent, or "
+            "coherent by the table"},
     {"coherence", TABLE(ld_road, coherence, coherence_table), .initial_doc = "none", SUM,
-     .doc = "over the spatial frequency, with `tracks: coherent`: the tracks' coherence is g^2 "
-            "(linear between rows, constant outside)"},
-    {"seed", INTEGER(ld_road, seed, 0, 999999999), DEFAULT(1), SUM,
-     .doc = "of the random part; the same seed is the same road"},
+     .doc = "with `tracks: coherent`: coherence g^2 over spatial frequency (linear between rows, "
+            "constant outside)"},
+    {"seed", INTEGER(ld_road, seed, 0, 999999999), DEFAULT(1), SUM, .doc = "of the random part"},
     {"harmonics", INTEGER(ld_road, harmonics, 1, 100000), DEFAULT(400), SUM,
-     .doc = "cosines of the random part, in bands of equal ratio"},
+     .doc = "cosines of the random part, in bands of equal frequency ratio"},
     {"wavelengths", VECTOR(ld_road, wavelengths, "m", 2), ROAD_WAVELENGTH, DEFAULT(0.3),
      .initials = road_wavelengths, SUM, .doc = "shortest and longest of the random part"},
     {"sines", LIST(ld_road, sine, sine_count, road_sine_block, 0, LD_MAX_SINES),
@@ -408,11 +402,11 @@ static const field_row road_fields[] = {
     {"bumps", LIST(ld_road, bump, bump_count, bump_block, 0, LD_MAX_BUMPS), .initial_doc = "none",
      SUM, .doc = "bumps and holes"},
     {"table", TABLE(ld_road, profile, profile_table), .initial_doc = "none", SUM,
-     .doc = "measured profile of both tracks or of each (cubic spline, constant outside)"},
+     .doc = "measured profile of both tracks or each (cubic spline, constant outside)"},
     {"places", VECTOR(ld_road, places, "m", 2), FROM_TO(-1000, 1000),
-     NO_DEFAULT("each wheel takes the track of its side"), SUM,
-     .doc = "z of left and right track in chassis axes, as of `mount`: the height under a wheel is "
-            "linear between them, that of the nearer track beyond"},
+     NO_DEFAULT("track of each wheel's side"), SUM,
+     .doc = "z of left and right track in chassis axes: height linear between, that of the nearer "
+            "track beyond"},
     {0}};
 static const field_block road_block = {.fields = road_fields,
                                        .form = road_forms,
@@ -420,16 +414,16 @@ static const field_block road_block = {.fields = road_fields,
                                        .form_from_keys = true};
 
 static const field_row wheel_fields[] = {
-    {"name", WORD(ld_wheel, name), .required = true, .doc = "its name in results and paths"},
+    {"name", WORD(ld_wheel, name), .required = true, .doc = "name in results and paths"},
     {"mount", VECTOR(ld_wheel, mount, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
-     .doc = "its centre with unloaded suspension, in chassis axes from the chassis' mass centre"},
+     .doc = "wheel centre with unloaded suspension, in chassis axes from the chassis' mass centre"},
     {"mass", NUMBER(ld_wheel, mass, "kg"), POSITIVE, REQUIRED, .doc = "mass"},
     {0}};
 static const field_block wheel_block = {.fields = wheel_fields};
 
 static const field_row drive_fields[] = {
     {"kp", NUMBER(ld_base, vehicle.drive.kp, "N.s/m"), NOT_NEGATIVE, REQUIRED,
-     .doc = "gain on the error of the speed"},
+     .doc = "gain on the speed error"},
     {"ki", NUMBER(ld_base, vehicle.drive.ki, "N/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "gain on its integral"},
     {"wheels", SELECTION(ld_base, vehicle.wheel, vehicle.wheel_count, ld_wheel, driven),
@@ -439,11 +433,11 @@ static const field_block drive_block = {.fields = drive_fields};
 
 static const field_row bump_stop_fields[] = {
     {"compression", NUMBER(ld_suspension, bump_stop.compression, "m"), POSITIVE, NO_DEFAULT("none"),
-     .doc = "travel up from the unloaded position at which the stop begins"},
+     .doc = "upward travel from unloaded at which the stop begins"},
     {"extension", NUMBER(ld_suspension, bump_stop.extension, "m"), POSITIVE, NO_DEFAULT("none"),
-     .doc = "travel down at which the stop begins"},
+     .doc = "downward travel at which the stop begins"},
     {"stiffness", NUMBER(ld_suspension, bump_stop.stiffness, "N/m"), POSITIVE,
-     NO_DEFAULT("needed by a stop"), .doc = "added beyond"},
+     NO_DEFAULT("required by a stop"), .doc = "added beyond"},
     {0}};
 static const field_block bump_stop_block = {.fields = bump_stop_fields};
 
@@ -464,7 +458,7 @@ static const field_row tyre_fields[] = {
     {"damping", VECTOR(ld_tyre, damping, "N.s/m", 3), NOT_NEGATIVE, DEFAULT(0),
      .doc = "along, vertical, across"},
     {"relaxation_length", NUMBER(ld_tyre, relaxation_length, "m"), POSITIVE, REQUIRED,
-     .doc = "distance over which the lateral force builds up"},
+     .doc = "distance over which lateral force builds up"},
     {"friction", NUMBER(ld_tyre, friction, ""), ABOVE_TO(0, 10), REQUIRED,
      .doc = "Coulomb coefficient between tyre and road"},
     {0}};
@@ -487,28 +481,28 @@ static const field_word looks_words[] = {
 #define NAMES(member) .kind = FIELD_TEXT, .offset = offsetof(ld_base, fmu.connect.member)
 static const field_row connect_fields[] = {
     {"position", NAMES(position), .initial_doc = "base.position.x base.position.y base.position.z",
-     .doc = "outputs for x, y, z in I of the origin of the frame that the FMU tells"},
+     .doc = "outputs: origin x, y, z in I of the frame that the FMU reports"},
     {"quaternion", NAMES(quaternion), .initial_doc = "base.quaternion.0 to .3",
-     .doc = "outputs for that frame's axes against I, scalar first"},
+     .doc = "outputs: its axes against I, scalar first"},
     {"angles", NAMES(angles), .initial_doc = "none",
-     .doc = "in place of them outputs for yaw, pitch, roll, of Ry(yaw) Rz(pitch) Rx(roll)"},
+     .doc = "outputs in place of it: yaw, pitch, roll of Ry(yaw) Rz(pitch) Rx(roll)"},
     {"velocity", NAMES(velocity), .initial_doc = "base.velocity.x to .z",
-     .doc = "outputs for the origin's velocity in I"},
+     .doc = "outputs: velocity of the origin in I"},
     {"angular_rate", NAMES(angular_rate), .initial_doc = "base.rate.x to .z",
-     .doc = "outputs for the angular velocity"},
+     .doc = "outputs: angular velocity"},
     {"force", NAMES(force), .initial_doc = "input.wrench.force.x to .z",
-     .doc = "inputs for the force in I at the frame's origin"},
+     .doc = "inputs: force in I at the frame's origin"},
     {"moment", NAMES(moment), .initial_doc = "input.wrench.moment.x to .z",
-     .doc = "inputs for the moment in I about it"},
+     .doc = "inputs: moment in I about it"},
     {0}};
 static const field_block connect_block = {.fields = connect_fields};
 static const field_row fmu_parameter_fields[] = {
     {"name", .kind = FIELD_TEXT, .offset = offsetof(ld_fmu_parameter, name), .required = true,
      .doc = "of the FMU's variable"},
     {"value", NUMBER(ld_fmu_parameter, value, ""), ANY, NO_DEFAULT("none"),
-     .doc = "of one that is a number, in the unit that the FMU has for it; 0 or 1 of a Boolean"},
+     .doc = "number, in the FMU's unit; 0 or 1 for a Boolean"},
     {"text", .kind = FIELD_TEXT, .offset = offsetof(ld_fmu_parameter, text), .initial_doc = "none",
-     .doc = "of one that is a text, in place of a value"},
+     .doc = "text in place of a number"},
     {0}};
 static const field_block fmu_parameter_block = {.fields = fmu_parameter_fields};
 static const field_word inputs_words[] = {
@@ -516,67 +510,63 @@ static const field_word inputs_words[] = {
 static const field_word axes_words[] = {
     {"inertial", LD_FMU_AXES_OF_I}, {"body", LD_FMU_AXES_OF_BODY}, {NULL, 0}};
 static const field_row base_fields[] = {
-    {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "what carries the tube"},
+    {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "base of the tube"},
     {"azimuth", NUMBER(ld_base, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
      .forms = FIXED_OR_PRESCRIBED | FMU,
-     .doc = "of the tube against the base, about +y: positive to the left"},
+     .doc = "of the tube against the base, positive to the left"},
     {"elevation", NUMBER(ld_base, elevation, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
-     .forms = FIXED_OR_PRESCRIBED | FMU,
-     .doc = "of the tube against the base, positive up, on top of the base's own motion"},
+     .forms = FIXED_OR_PRESCRIBED | FMU, .doc = "of the tube against the base, positive up"},
     {"velocity", VECTOR(ld_base, velocity, "m/s", 3), ANY, DEFAULT(0),
      .forms = FORM(LD_BASE_PRESCRIBED), .doc = "constant velocity along I, added to the sines"},
     {"motion", SAME_STRUCT(motion_block), .forms = FORM(LD_BASE_PRESCRIBED), .initial_doc = "none",
      .doc = "position and orientation Ry(yaw) Rz(pitch) Rx(roll) over time"},
     {"sea", BLOCK(ld_base, sea, sea_block), .forms = FORM(LD_BASE_PRESCRIBED),
      .initial_doc = "none", SWITCH(ld_base, sea.present, sea_words), .other_is_bool = true,
-     .doc = "waves on deep water and a ship's response to them, added to velocity and sines"},
+     .doc = "waves on deep water and the ship's response, added to velocity and sines"},
     {"speed", NUMBER(ld_base, vehicle.speed, "m/s"), FROM_TO(0, 1000), REQUIRED, .forms = VEHICLE,
-     .doc = "marching speed, held by the drive; 0: parked"},
+     .doc = "marching speed, kept by the drive; 0: parked"},
     {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true, .forms = VEHICLE,
-     .doc = "height under the wheels over x of I: a flat road, or the sum of what is given"},
+     .doc = "height over x of I: flat, or the sum of what is given"},
     {"wheels", LIST(ld_base, vehicle.wheel, vehicle.wheel_count, wheel_block, 3, LD_MAX_WHEELS),
-     .required = true, .forms = VEHICLE,
-     .doc = "lumped masses on suspensions and tyres, all alike"},
+     .required = true, .forms = VEHICLE, .doc = "masses on suspensions and tyres, all alike"},
     {"drive", SAME_STRUCT(drive_block), .required = true, .forms = VEHICLE,
-     .doc = "force that holds the speed, shared equally among the driven wheels"},
+     .doc = "force that keeps the speed, equal on all driven wheels"},
     {"suspension", BLOCK(ld_base, vehicle.suspension, suspension_block), .required = true,
      .forms = VEHICLE, .doc = "spring-damper between chassis and each wheel"},
     {"tyre", BLOCK(ld_base, vehicle.tyre, tyre_block), .required = true, .forms = VEHICLE,
      .doc = "between each wheel and the road"},
     {"extrapolation", CHOICE(ld_base, extrapolation, extrapolation_words),
      DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
-     .doc = "motion between two reports: with the acceleration of the last two velocities, or with "
-            "the last velocity"},
+     .doc =
+         "between reports: by the acceleration of the last two velocities, or the last velocity"},
     {"digest", .kind = FIELD_TEXT, .offset = offsetof(ld_base, fmu.digest), .forms = FMU,
      .initial_doc = "that of the file",
-     .doc = "of the FMU's file, as results have it: another file is refused"},
+     .doc = "of the file, as in results: another file is an error"},
     {"file", .kind = FIELD_FILE, .offset = offsetof(ld_base, fmu.file),
      .other = offsetof(ld_base, fmu.digest), .required = true, .forms = FMU,
-     .doc = "the FMU, for co-simulation by FMI 2.0 or 3.0, as seen from the scenario's folder"},
+     .doc = "FMU for co-simulation (FMI 2.0 or 3.0), relative to the scenario's folder"},
     {"step", NUMBER(ld_base, fmu.step, "s"), ABOVE_TO(0, 1), REQUIRED, .forms = FMU,
-     .doc = "time between two exchanges of pose and wrench, counted from the run's start"},
+     .doc = "between exchanges of pose and wrench, from the run's start"},
     {"inputs", CHOICE(ld_base, fmu.inputs, inputs_words), DEFAULT(LD_FMU_HELD), .forms = FMU,
-     .doc =
-         "how the FMU uses them during a step: `held`, and it receives the mean wrench "
-         "extrapolated over the step; `extrapolated` by the FMU, and it receives the last wrench"},
+     .doc = "use within a step: `held` (the FMU receives the extrapolated mean wrench) or "
+            "`extrapolated` by the FMU (it receives the last wrench)"},
     {"connect", SAME_STRUCT(connect_block), .forms = FMU, .initial_doc = "as below",
-     .doc = "names of the FMU's variables, with blanks between"},
+     .doc = "names of the FMU's variables, separated by blanks"},
     {"rate_axes", CHOICE(ld_base, fmu.rate_axes, axes_words), DEFAULT(LD_FMU_AXES_OF_I),
-     .forms = FMU, .doc = "axes of the angular velocity that it reports: those of I, or its own"},
+     .forms = FMU, .doc = "axes of the reported angular velocity"},
     {"at", VECTOR(ld_base, at, "m", 3), ANY, DEFAULT(0), .forms = FORM(LD_BASE_PRESCRIBED) | FMU,
-     .doc = "rear end of the undeformed tube in the frame of the prescribed motion or of the FMU"},
+     .doc = "rear end of the undeformed tube in the base's frame"},
     {"parameters",
      LIST(ld_base, fmu.parameter, fmu.parameter_count, fmu_parameter_block, 0,
           LD_MAX_FMU_PARAMETERS),
      .silent = true, .forms = FMU, .initial_doc = "none",
-     .doc = "of the FMU, and start values, set before it initializes"},
+     .doc = "of the FMU, and start values, set before its initialization"},
     {"start_time", NUMBER(ld_base, fmu.start_time, "s"), FROM_TO(-1e6, 1e6), DEFAULT(0),
-     .forms = FMU, .doc = "of the FMU's own clock when the run begins, with its lead-in"},
+     .forms = FMU, .doc = "of the FMU's clock at the run's start (with lead_in)"},
     {"time_limit", NUMBER(ld_base, fmu.time_limit, "s"), ABOVE_TO(0, 1e5), DEFAULT(60),
-     .forms = FMU, .doc = "longest that one call of it may take"},
+     .forms = FMU, .doc = "longest duration of one call"},
     {"looks", CHOICE(ld_base, looks, looks_words), DEFAULT(LD_LOOKS_PLAIN),
-     .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU,
-     .doc = "appearance in the replay: a plate with posts, a ship, an aircraft"},
+     .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU, .doc = "appearance in the replay"},
     {0}};
 static const field_block base_block = {.fields = base_fields,
                                        .form = base_words,
@@ -589,7 +579,7 @@ static const field_row chassis_fields[] = {
     {"mass", NUMBER(ld_platform, chassis_mass, "kg"), POSITIVE, REQUIRED,
      .doc = "without wheels and platforms"},
     {"inertia", VECTOR(ld_platform, chassis_inertia, "kg.m2", 3), POSITIVE, REQUIRED,
-     .doc = "about its mass centre, the origin of its axes"},
+     .doc = "about its mass centre, the origin of chassis axes"},
     {0}};
 static const field_block chassis_block = {.fields = chassis_fields};
 
@@ -598,14 +588,14 @@ static const field_row command_columns[] = {
     {"angle", .unit = "rad", FROM_TO(-200 * PI, 200 * PI)},
 };
 static const table_format command_table = {TABLE_CONSTANT | TABLE_CSV, 2, command_columns, NULL};
-#define UNLESS_LOCKED NO_DEFAULT("needed unless the hinge has a lock")
+#define UNLESS_LOCKED NO_DEFAULT("required without lock")
 static const field_row cascade_fields[] = {
     {"kp", NUMBER(ld_cascade, kp, "1/s"), POSITIVE, REQUIRED,
-     .doc = "gain of the angle's loop: the rate that it commands, over the error"},
+     .doc = "gain of the angle loop: commanded rate over error"},
     {"rate_kp", NUMBER(ld_cascade, rate_kp, "N.m.s/rad"), POSITIVE, REQUIRED,
-     .doc = "gain of the rate's loop"},
+     .doc = "gain of the rate loop"},
     {"rate_ki", NUMBER(ld_cascade, rate_ki, "N.m/rad"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "gain on the integral of the rate's error, which stays within the torque limit"},
+     .doc = "gain on the integral of the rate error, limited to the torque limit"},
     {0}};
 static const field_block cascade_block = {.fields = cascade_fields};
 static const field_word cascade_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
@@ -615,66 +605,63 @@ static const field_row noise_fields[] = {
      .doc = "rms of the measured angle"},
     {"rate", NUMBER(ld_sensor_noise, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "rms of the measured rate"},
-    {"seed", INTEGER(ld_sensor_noise, seed, 0, 999999999), DEFAULT(1),
-     .doc = "the same seed is the same noise"},
+    {"seed", INTEGER(ld_sensor_noise, seed, 0, 999999999), DEFAULT(1), .doc = "of the noise"},
     {0}};
 static const field_block noise_block = {.fields = noise_fields};
 static const field_row resolution_fields[] = {
     {"angle", NUMBER(ld_resolution, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "least step of the measured angle; 0: none"},
+     .doc = "step of the measured angle; 0: none"},
     {"rate", NUMBER(ld_resolution, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
-     .doc = "least step of the measured rate; 0: none"},
+     .doc = "step of the measured rate; 0: none"},
     {0}};
 static const field_block resolution_block = {.fields = resolution_fields};
 
 static const field_row gear_fields[] = {
     {"stiffness", NUMBER(ld_gear, stiffness, "N.m/rad"), POSITIVE, REQUIRED,
-     .doc = "of the drive, as seen from the hinge"},
+     .doc = "of the drive, seen from the hinge"},
     {"damping", NUMBER(ld_gear, damping, "N.m.s/rad"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "beside that stiffness"},
+     .doc = "parallel to that stiffness"},
     {"inertia", NUMBER(ld_gear, inertia, "kg.m2"), POSITIVE, REQUIRED,
-     .doc = "of the motor about the hinge: times the square of the ratio"},
+     .doc = "of the motor, times the square of the gear ratio"},
     {"backlash", NUMBER(ld_gear, backlash, "rad"), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "free travel from one side of the teeth to the other"},
+     .doc = "free travel between the flanks"},
     {0}};
 static const field_block gear_block = {.fields = gear_fields};
 static const field_word gear_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
-#define UNLESS_CASCADE NO_DEFAULT("needed unless the hinge has a lock or a cascade")
+#define UNLESS_CASCADE NO_DEFAULT("required without lock and cascade")
 static const field_row stabiliser_fields[] = {
     {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
-     .doc = "yaw (azimuth) or pitch (elevation) of the elevation platform's x axis against I, "
-            "constant or over time (linear between rows, constant outside)"},
+     .doc = "yaw (azimuth) or pitch (elevation) of the elevation platform's x axis in I, constant "
+            "or over time (linear, constant outside)"},
     {"kp", NUMBER(ld_stabiliser, kp, "N.m/rad"), NOT_NEGATIVE, UNLESS_CASCADE,
      .doc = "gain on the error"},
     {"ki", NUMBER(ld_stabiliser, ki, "N.m/rad/s"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "gain on its integral, which stays within the torque limit"},
+     .doc = "gain on its integral, limited to the torque limit"},
     {"kd", NUMBER(ld_stabiliser, kd, "N.m.s/rad"), NOT_NEGATIVE, UNLESS_CASCADE,
      .doc = "gain on its rate"},
     {"torque_limit", NUMBER(ld_stabiliser, torque_limit, "N.m"), POSITIVE, UNLESS_LOCKED,
      .doc = "greatest torque"},
     {"feedforward", NUMBER(ld_stabiliser, feedforward, ""), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "share of the chassis' inertial rate along the hinge's axis against which it is "
-            "commanded to turn"},
+     .doc = "share of the chassis' rate about the hinge that the command compensates"},
     {"cascade", BLOCK(ld_stabiliser, cascade, cascade_block), .initial_doc = "none",
      SWITCH(ld_stabiliser, cascade.present, cascade_words), .other_is_bool = true,
-     .doc = "two loops in place of kp, ki, kd, which then do not matter: the angle's commands a "
-            "rate to the rate's"},
+     .doc = "two loops in place of kp, ki, kd: the angle loop commands a rate to the rate loop"},
     {"bandwidth", NUMBER(ld_stabiliser, bandwidth, "Hz"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "of the actuator, whose torque follows as a first-order lag; 0: at once"},
+     .doc = "of the actuator, a first-order lag of the torque; 0: no lag"},
     {"slew", NUMBER(ld_stabiliser, slew, "N.m/s"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "greatest rate of the actuator's torque, which needs its bandwidth; 0: any"},
+     .doc = "greatest rate of the torque, requires bandwidth; 0: no limit"},
     {"sample", NUMBER(ld_stabiliser, sample, "s"), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "period of a digital loop, whose torque is held in between; 0: continuous"},
+     .doc = "period of a digital loop that holds its torque; 0: continuous"},
     {"delay", NUMBER(ld_stabiliser, delay, "s"), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "from a sample until its torque is given out, at most the period"},
+     .doc = "from a sample to its torque, at most the period"},
     {"sensor_noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
-     .doc = "white noise of the sensors, one draw a sample"},
+     .doc = "white noise of the sensors, one value a sample"},
     {"sensor_resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
-     .doc = "of the sensors, rounded in each sample"},
+     .doc = "rounding of the sensors"},
     {"gear", BLOCK(ld_stabiliser, gear, gear_block), .initial_doc = "none",
      SWITCH(ld_stabiliser, gear.present, gear_words), .other_is_bool = true,
-     .doc = "between the actuator and the hinge: stiffness, the motor's inertia, backlash"},
+     .doc = "between actuator and hinge"},
     {0}};
 static const field_block stabiliser_block = {.fields = stabiliser_fields};
 
@@ -684,13 +671,13 @@ static const field_row friction_fields[] = {
     {"coulomb", NUMBER(ld_hinge_friction, coulomb, "N.m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "Coulomb friction"},
     {"rate", NUMBER(ld_hinge_friction, rate, "rad/s"), POSITIVE, DEFAULT(1e-3),
-     .doc = "at which Coulomb friction is at 71 %"},
+     .doc = "at which Coulomb friction reaches 71 %"},
     {0}};
 static const field_block friction_block = {.fields = friction_fields};
 
 static const field_row hinge_lock_fields[] = {
     {"stiffness", NUMBER(ld_hinge_lock, stiffness, "N.m/rad"), POSITIVE, REQUIRED,
-     .doc = "about the hinge, at rest in the equilibrium"},
+     .doc = "about the hinge, from the equilibrium"},
     {"damping", NUMBER(ld_hinge_lock, damping, "N.m.s/rad"), NOT_NEGATIVE, REQUIRED,
      .doc = "about the hinge"},
     {0}};
@@ -699,22 +686,21 @@ static const field_word hinge_lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
 static const field_row turret_fields[] = {
     {"hinge_at", VECTOR(ld_turret, hinge_at, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
-     .doc = "hinge, in axes of the body that carries it: from the chassis' mass centre (azimuth), "
-            "from the azimuth hinge (elevation)"},
+     .doc = "hinge in axes of the body below: from the chassis' mass centre (azimuth), from the "
+            "azimuth hinge (elevation)"},
     {"mass", NUMBER(ld_turret, mass, "kg"), POSITIVE, REQUIRED,
-     .doc = "of the frame; on the elevation platform tubes, tails and rockets add themselves"},
+     .doc = "of the frame, without tubes, tails and rockets"},
     {"center", VECTOR(ld_turret, center, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
-     .doc = "mass centre of the frame from its hinge, own axes"},
+     .doc = "mass centre of the frame from its hinge"},
     {"inertia", VECTOR(ld_turret, inertia, "kg.m2", 3), POSITIVE, REQUIRED,
-     .doc = "of the frame about its own mass centre"},
+     .doc = "of the frame about its mass centre"},
     {"stabiliser", BLOCK(ld_turret, stabiliser, stabiliser_block), .required = true,
-     .doc = "holds the commanded angle: torque kp error + kd its rate + ki its integral, limited; "
-            "or as its options say"},
+     .doc = "torque kp error + kd rate + ki integral, limited; or as its options say"},
     {"friction", BLOCK(ld_turret, friction, friction_block), .initial_doc = "none",
      .doc = "in the hinge"},
     {"lock", BLOCK(ld_turret, lock, hinge_lock_block), .initial_doc = "none",
      SWITCH(ld_turret, lock.present, hinge_lock_words), .other_is_bool = true,
-     .doc = "spring-damper in place of the stabiliser, whose gains then do not matter"},
+     .doc = "spring-damper in place of the stabiliser"},
     {0}};
 static const field_block turret_block = {.fields = turret_fields};
 
@@ -726,15 +712,14 @@ static const table_format jet_table = {TABLE_CSV, 2, jet_columns, NULL};
 static const field_row platform_fields[] = {
     {"chassis", SAME_STRUCT(chassis_block), .required = true, .doc = "free rigid body"},
     {"azimuth", BLOCK(ld_platform, azimuth, turret_block), .required = true,
-     .doc = "platform that turns about the chassis' y axis"},
+     .doc = "platform about the chassis' y axis"},
     {"elevation", BLOCK(ld_platform, elevation, turret_block), .required = true,
-     .doc = "platform that turns about the azimuth platform's z axis and carries the tubes"},
+     .doc = "platform about the azimuth platform's z axis, with the tubes"},
     {"jet", TABLE(ld_platform, jet, jet_table), .initial_doc = "none",
-     .doc = "force of the jet of a rocket that has left on the elevation platform, backwards along "
-            "the tube at its mouth, at its rocket's greatest thrust; over the distance from mouth "
-            "to rear adaptor, linear between rows"},
+     .doc = "force of a departed rocket's jet, backwards on the elevation platform at the tip, at "
+            "greatest thrust; over the distance from tip to rear adaptor, linear"},
     {"jet_scale", NUMBER(ld_platform, jet_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
-     .doc = "factor on the force of a jet"},
+     .doc = "factor on that force"},
     {0}};
 static const field_block platform_block = {.fields = platform_fields};
 
@@ -746,7 +731,7 @@ static const field_row layout_fields[] = {
     {"pitch", NUMBER(ld_layout, pitch, "m"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "distance between neighbours"},
     {"first", VECTOR(ld_layout, first, "m", 3), FROM_TO(-1000, 1000), DEFAULT(0),
-     .doc = "rear end of tube 1, platform axes (a base that is no vehicle does without)"},
+     .doc = "rear end of tube 1, platform axes (vehicles only)"},
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
@@ -762,13 +747,13 @@ static const field_word section_forms[] = {
 #define AREA FORM(LD_SECTION_AREA)
 static const field_row section_fields[] = {
     {"from", NUMBER(ld_section, from, "m"), FROM_TO(0, 100), REQUIRED,
-     .doc = "station where it begins; it goes to the next one or to the end"},
+     .doc = "station of its begin; up to the next section or the end"},
     {"inner_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
      .forms = ANNULUS, .doc = "radius of the bore"},
     {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
      .forms = ANNULUS, .doc = "outer radius"},
     {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10),
-     NO_DEFAULT("needed by a bore"), .forms = AREA | STIFFNESS | PLANES,
+     NO_DEFAULT("required by a bore"), .forms = AREA | STIFFNESS | PLANES,
      .doc = "radius of the bore"},
     {"mass_per_length", NUMBER(ld_section, mass_per_length, "kg/m"), POSITIVE, REQUIRED,
      .forms = AREA | STIFFNESS | PLANES, .doc = "mass per length"},
@@ -783,9 +768,9 @@ static const field_row section_fields[] = {
     {"bending_stiffness", NUMBER(ld_section, bending_stiffness, "N.m2"), POSITIVE, REQUIRED,
      .forms = STIFFNESS, .doc = "E I, the same in both planes"},
     {"bending_stiffness_y", NUMBER(ld_section, bending_stiffness_y, "N.m2"), POSITIVE, REQUIRED,
-     .forms = PLANES, .doc = "E I about y, which deflections along z meet"},
+     .forms = PLANES, .doc = "E I about y, against deflection along z"},
     {"bending_stiffness_z", NUMBER(ld_section, bending_stiffness_z, "N.m2"), POSITIVE, REQUIRED,
-     .forms = PLANES, .doc = "E I about z, which deflections along y meet"},
+     .forms = PLANES, .doc = "E I about z, against deflection along y"},
     {"torsion_stiffness", NUMBER(ld_section, torsion_stiffness, "N.m2"), POSITIVE, REQUIRED,
      .forms = STIFFNESS | PLANES, .doc = "G times the torsion constant"},
     {"polar_inertia", NUMBER(ld_section, polar_inertia, "kg.m"), POSITIVE, REQUIRED,
@@ -805,13 +790,13 @@ static const field_block point_mass_block = {.fields = point_mass_fields};
 
 static const field_row material_fields[] = {
     {"youngs_modulus", NUMBER(ld_material, youngs_modulus, "Pa"), FROM_TO(1e3, 1e15),
-     NO_DEFAULT("needed unless sections give stiffnesses"), .doc = "E"},
+     NO_DEFAULT("required without section stiffnesses"), .doc = "E"},
     {"poisson_ratio", NUMBER(ld_material, poisson_ratio, ""), INSIDE(-1, 0.5),
      NO_DEFAULT("this or shear_modulus"), .doc = "nu, for G = E/(2 (1 + nu))"},
     {"shear_modulus", NUMBER(ld_material, shear_modulus, "Pa"), FROM_TO(1e3, 1e15),
      NO_DEFAULT("this or poisson_ratio"), .doc = "G"},
     {"density", NUMBER(ld_material, density, "kg/m3"), FROM_TO(1e-3, 1e6),
-     NO_DEFAULT("needed by sections given by radii"), .doc = "density"},
+     NO_DEFAULT("required by sections given by radii"), .doc = "density"},
     {0}};
 static const field_block material_block = {.fields = material_fields};
 
@@ -826,10 +811,10 @@ static const field_row modes_fields[] = {
      .doc = "torsion modes"},
     {"axial", INTEGER(ld_modes, axial, 0, LD_MAX_AXIAL_MODES), DEFAULT(0), .doc = "axial modes"},
     {"elements", INTEGER(ld_modes, elements, 2, 400), DEFAULT(60),
-     .doc = "finite elements along the tube, at least (section steps add nodes)"},
+     .doc = "least number of finite elements (section steps add nodes)"},
     {"span", CHOICE(ld_modes, span, span_words), DEFAULT(LD_SPAN_SUPPORTED),
-     .doc = "boundary conditions of the modes: tube and tail on the support springs, clamped at "
-            "the rear end, or free"},
+     .doc = "boundary conditions of the modes: tube and tail on their springs, clamped at the rear "
+            "end, or free"},
     {"damping", NUMBER(ld_modes, damping, ""), FROM_TO(0, 1), DEFAULT(0),
      .doc = "damping ratio of the clamped modes of the bare tube"},
     {0}};
@@ -849,9 +834,9 @@ static const field_word clamp_words[] = {
     {"yaw", LD_CLAMP_YAW}, {"pitch", LD_CLAMP_PITCH}, {NULL, 0}};
 static const field_row recoil_fields[] = {
     {"preload", NUMBER(ld_recoil, preload, "N"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "force towards battery from which on the tube gives way"},
+     .doc = "force at which the tube begins to recoil"},
     {"stiffness", NUMBER(ld_recoil, stiffness, "N/m"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "by which that force grows with the travel back"},
+     .doc = "of the recuperator: force over travel"},
     {"damping", NUMBER(ld_recoil, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "force over speed"},
     {"quadratic_damping", NUMBER(ld_recoil, quadratic_damping, "N.s2/m2"), NOT_NEGATIVE, DEFAULT(0),
@@ -859,9 +844,9 @@ static const field_row recoil_fields[] = {
     {"friction", NUMBER(ld_recoil, friction, "N"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "Coulomb friction"},
     {"friction_speed", NUMBER(ld_recoil, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
-     .doc = "speed at which that is at 71 %"},
-    {"stroke", NUMBER(ld_recoil, stroke, "m"), ABOVE_TO(0, 100), NO_DEFAULT("no stop behind"),
-     .doc = "travel back at which a stop like that in battery begins"},
+     .doc = "speed at which friction reaches 71 %"},
+    {"stroke", NUMBER(ld_recoil, stroke, "m"), ABOVE_TO(0, 100), NO_DEFAULT("no rear stop"),
+     .doc = "travel at which the rear stop begins"},
     {0}};
 static const field_block recoil_block = {.fields = recoil_fields};
 static const field_word recoil_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
@@ -869,8 +854,7 @@ static const field_word recoil_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_row support_fields[] = {
     {"at", NUMBER(ld_support, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
     {"stiffness", VECTOR(ld_support, stiffness, "N/m", 3), NOT_NEGATIVE,
-     NO_DEFAULT("needed unless directions are clamped; none then"),
-     .doc = "along x, y, z of the tube"},
+     NO_DEFAULT("required without clamped directions"), .doc = "along x, y, z of the tube"},
     {"damping", VECTOR(ld_support, damping, "N.s/m", 3), NOT_NEGATIVE, DEFAULT(0),
      .doc = "along x, y, z"},
     {"rotational_stiffness", VECTOR(ld_support, rotational_stiffness, "N.m/rad", 3), NOT_NEGATIVE,
@@ -881,16 +865,15 @@ static const field_row support_fields[] = {
      .initial_doc = "none", .doc = "directions held rigidly, without springs"},
     {"recoil", BLOCK(ld_support, recoil, recoil_block), .initial_doc = "none",
      SWITCH(ld_support, recoil.present, recoil_words), .other_is_bool = true,
-     .doc = "slide along x on which the tube recoils; the support's stiffness and damping along x "
-            "are then those of its stops, the first in battery"},
+     .doc = "slide along x; stiffness and damping along x are then those of its stops"},
     {0}};
 static const field_block support_block = {.fields = support_fields};
 
 static const field_row station_fields[] = {
     {"at", NUMBER(ld_station, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
     {"outer_fibre", VECTOR(ld_station, outer_fibre, "m", 2), ABOVE_TO(0, 10),
-     NO_DEFAULT("of a section given by radii the outer one; else none, and no stress is told"),
-     .doc = "distance of the outermost corner from the elastic axis, along y and along z"},
+     NO_DEFAULT("outer radius of a section given by radii; else none: no stress"),
+     .doc = "outermost corner from the elastic axis, along y and z"},
     {0}};
 static const field_block station_block = {.fields = station_fields};
 
@@ -901,10 +884,10 @@ static const field_row slot_columns[] = {
 static const table_format slot_table = {TABLE_CONSTANT, 2, slot_columns, NULL};
 static const field_row slot_fields[] = {
     {"angle", TABLE(ld_slot, angle, slot_table), .required = true,
-     .doc = "to the tube's axis in the unrolled tube, constant or over the station (linear between "
-            "rows, constant outside)"},
+     .doc = "to the tube's axis in the unrolled tube, constant or over the station (linear, "
+            "constant outside)"},
     {"radius", NUMBER(ld_slot, radius, "m"), ABOVE_TO(0, 10), REQUIRED,
-     .doc = "of the circle on which the knob sits"},
+     .doc = "of the circle of the knob"},
     {"friction", NUMBER(ld_slot, friction, ""), FROM_TO(0, 10), DEFAULT(0),
      .doc = "Coulomb coefficient between knob and slot"},
     {0}};
@@ -933,21 +916,20 @@ static const table_format over_travel_table = {TABLE_CSV, 2, over_travel_columns
 static const field_row pressure_fields[] = {
     {"over_time", TABLE(ld_pressure, over_time, over_time_table), .required = true,
      .forms = OVER_TIME,
-     .doc = "from the ignition on, linear between rows, none after the last; a time given twice is "
-            "a jump"},
+     .doc = "from ignition, linear, 0 after the last row; a time given twice is a jump"},
     {"over_travel", TABLE(ld_pressure, over_travel, over_travel_table), .required = true,
      .forms = OVER_TRAVEL,
-     .doc = "over the way from rocket.start_at, pchip between rows, which go on to the tip"},
+     .doc = "over the travel from rocket.start_at, pchip; rows must reach the tip"},
     {"scale", NUMBER(ld_pressure, scale, ""), FROM_TO(0, 1000), DEFAULT(1),
-     .doc = "factor on the pressure, before `ambient` is taken off"},
+     .doc = "factor on the pressure, before `ambient` is subtracted"},
     {"pressure", NUMBER(ld_pressure, pressure, "Pa"), ABOVE_TO(0, 1e10), REQUIRED, OF_GAS,
      .doc = "p_0 of cold gas at the start, absolute"},
     {"volume", NUMBER(ld_pressure, volume, "m3"), ABOVE_TO(0, 1e6), REQUIRED, OF_GAS,
-     .doc = "V_0 that it fills there, the bore behind the rocket included"},
+     .doc = "V_0 of the gas there, with the bore behind the rocket"},
     {"exponent", NUMBER(ld_pressure, exponent, ""), FROM_TO(0, 10), REQUIRED, OF_GAS,
-     .doc = "kappa of p (V_0 + A s')^kappa = p_0 V_0^kappa; 1.4: air that keeps its heat"},
+     .doc = "kappa of p (V_0 + A s')^kappa = p_0 V_0^kappa; adiabatic air: 1.4"},
     {"ambient", NUMBER(ld_pressure, ambient, "Pa"), FROM_TO(0, 1e10), DEFAULT(0),
-     .doc = "pressure before the rocket, which is taken off"},
+     .doc = "pressure before the rocket, subtracted"},
     {0}};
 static const field_block pressure_block = {.fields = pressure_fields,
                                            .form = pressure_forms,
@@ -958,22 +940,22 @@ static const field_word shape_words[] = {
     {"flat", LD_SURFACE_FLAT}, {"round", LD_SURFACE_ROUND}, {NULL, 0}};
 #define GAP FROM_TO(0, 1)
 static const field_row surface_fields[] = {
-    {"name", WORD(ld_surface, name), .required = true, .doc = "its name in messages and paths"},
+    {"name", WORD(ld_surface, name), .required = true, .doc = "name in messages and paths"},
     {"at", VECTOR(ld_surface, at, "m", 2), FROM_TO(-10, 10), REQUIRED,
-     .doc = "y, z of a point of it, from the guide line"},
+     .doc = "y, z of one of its points from the guide line"},
     {"normal", NUMBER(ld_surface, normal, "rad"), FROM_TO(-2 * PI, 2 * PI), REQUIRED,
-     .doc = "where the surface is as seen from the shoe, from y towards z"},
-    {"gap", NUMBER(ld_surface, gap, "m"), GAP, REQUIRED, .doc = "to a shoe in its centred place"},
+     .doc = "direction from the shoe to the surface, from y towards z"},
+    {"gap", NUMBER(ld_surface, gap, "m"), GAP, REQUIRED, .doc = "to a centred shoe"},
     {"shape", CHOICE(ld_surface, shape, shape_words), DEFAULT(LD_SURFACE_FLAT),
-     .doc = "flat: roll opens and closes the gap; round: the shoe is round about its centre"},
+     .doc = "flat: roll changes the gap; round: it does not"},
     {0}};
 static const field_block surface_block = {.fields = surface_fields};
 
 static const field_row t_slot_fields[] = {
     {"at", VECTOR(ld_t_slot, at, "m", 2), FROM_TO(-10, 10), REQUIRED,
-     .doc = "y, z of its middle, from the guide line"},
+     .doc = "y, z of its middle from the guide line"},
     {"lips", NUMBER(ld_t_slot, lips, "m"), ABOVE_TO(0, 10), REQUIRED,
-     .doc = "distance of the lips' middles, along z"},
+     .doc = "distance of the lips' middles along z"},
     {"gap", NUMBER(ld_t_slot, gap, "m"), GAP, REQUIRED, .doc = "over and under the lips"},
     {"side_gap", NUMBER(ld_t_slot, side_gap, "m"), GAP, REQUIRED, .doc = "on either side"},
     {0}};
@@ -981,12 +963,12 @@ static const field_block t_slot_block = {.fields = t_slot_fields};
 
 static const field_row tower_fields[] = {
     {"rails", INTEGER(ld_tower, rails, 2, LD_MAX_SURFACES), DEFAULT(4),
-     .doc = "how many, evenly spaced around the line"},
+     .doc = "number, evenly around the line"},
     {"first", NUMBER(ld_tower, first, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
-     .doc = "where the first one is, from y towards z"},
+     .doc = "direction of the first one, from y towards z"},
     {"gap", NUMBER(ld_tower, gap, "m"), GAP, REQUIRED, .doc = "radial, to each rail"},
     {"radius", NUMBER(ld_tower, radius, "m"), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "from the line to the rails' surfaces, where their friction acts"},
+     .doc = "of the rails' surfaces, where friction acts"},
     {0}};
 static const field_block tower_block = {.fields = tower_fields};
 
@@ -999,11 +981,12 @@ static const field_row guide_fields[] = {
     {"line", VECTOR(ld_guide, line, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
      .doc = "y, z of the guide line, from the elastic axis"},
     {"surfaces", LIST(ld_guide, surface, surface_count, surface_block, 1, LD_MAX_SURFACES),
-     .required = true, .forms = FORM(LD_GUIDE_SURFACES), .doc = "on which every shoe slides"},
+     .required = true, .forms = FORM(LD_GUIDE_SURFACES),
+     .doc = "surfaces on which every shoe slides"},
     {"t_slot", BLOCK(ld_guide, t_slot, t_slot_block), .required = true,
-     .forms = FORM(LD_GUIDE_T_SLOT), .doc = "six flat surfaces in place of a list of them"},
+     .forms = FORM(LD_GUIDE_T_SLOT), .doc = "six flat surfaces"},
     {"tower", BLOCK(ld_guide, tower, tower_block), .required = true, .forms = FORM(LD_GUIDE_TOWER),
-     .doc = "round surfaces around the line in place of a list of them"},
+     .doc = "round surfaces around the line"},
     {0}};
 static const field_block guide_block = {.fields = guide_fields,
                                         .form = guide_forms,
@@ -1014,36 +997,34 @@ static const field_row tubes_fields[] = {
     {"layout", BLOCK(ld_tubes, layout, layout_block), .initial_doc = "one tube",
      .doc = "where the tubes are"},
     {"empty", INTEGERS(ld_tubes, empty, empty_count, 1, 10000, LD_MAX_TUBES), .initial_doc = "none",
-     .doc = "numbers of the tubes without a rocket from the start"},
+     .doc = "tubes without a rocket from the start"},
     {"length", NUMBER(ld_tubes, length, "m"), ABOVE_TO(0, 100), REQUIRED,
      .doc = "from the rear end to the tip"},
     {"sections", LIST(ld_tubes, section, section_count, section_block, 1, LD_MAX_SECTIONS),
-     .required = true, .doc = "stretches of constant section, the first from 0 m"},
+     .required = true, .doc = "lengths of constant section, the first from 0 m"},
     {"point_masses",
      LIST(ld_tubes, point_mass, point_mass_count, point_mass_block, 0, LD_MAX_POINT_MASSES),
      .initial_doc = "none", .doc = "guide rings and other small masses"},
     {"material", BLOCK(ld_tubes, material, material_block), .initial_doc = "none",
      .doc = "for sections given by radii or by area"},
     {"modes", BLOCK(ld_tubes, modes, modes_block), .initial_doc = "as below",
-     .doc = "how the tube's deformation is resolved"},
+     .doc = "resolution of the tube's deformation"},
     {"tail", BLOCK(ld_tubes, tail, tail_block), .initial_doc = "none",
      .doc = "rigid body welded to the rear end"},
     {"supports", LIST(ld_tubes, support, support_count, support_block, 0, LD_MAX_SUPPORTS),
      .required = true, .doc = "spring-dampers between tube and base"},
     {"loads", LIST(ld_tubes, station, station_count, station_block, 0, LD_MAX_STATIONS),
      .silent = true, .initial_doc = "none",
-     .doc = "stations whose section forces, moments and stress are output, and the forces of each "
-            "support"},
+     .doc = "stations of section loads and stress in the results, and support loads"},
     {"slot", BLOCK(ld_tubes, slot, slot_block), .required = true,
      SWITCH(ld_tubes, slot.kind, slot_words),
-     .doc = "slot that the rocket's knob follows; `none`: smooth bore"},
+     .doc = "slot of the rocket's knob; `none`: smooth bore"},
     {"pressure", BLOCK(ld_tubes, pressure, pressure_block), .initial_doc = "none",
      SWITCH(ld_tubes, pressure.present, pressure_words), .other_is_bool = true,
-     .doc = "on the rocket's rear, from the ignition until it leaves, beside or in place of a "
-            "motor"},
+     .doc = "on the rocket's rear, from ignition to exit, with or without a motor"},
     {"guide", BLOCK(ld_tubes, guide, guide_block), .initial_doc = "bore",
      SWITCH(ld_tubes, guide.present, guide_words), .other_is_bool = true,
-     .doc = "what guides the rocket: the bore, or surfaces on which its adaptors slide as shoes"},
+     .doc = "guide of the rocket: the bore, or surfaces with the adaptors as shoes"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 
@@ -1052,20 +1033,20 @@ const field_block tubes_block = {.fields = tubes_fields};
 static const field_row empty_fields[] = {
     {"mass", NUMBER(ld_mass_data, mass, "kg"), POSITIVE, REQUIRED, .doc = "mass at burn-out"},
     {"center", VECTOR(ld_mass_data, center, "m", 3), FROM_TO(-100, 100), REQUIRED,
-     .doc = "mass centre from the rear adaptor's centre"},
+     .doc = "mass centre from the rear adaptor"},
     {"inertia", VECTOR(ld_mass_data, inertia, "kg.m2", 3), POSITIVE, REQUIRED,
      .doc = "about the mass centre"},
     {0}};
 static const field_block empty_block = {.fields = empty_fields};
 
 static const field_row adaptor_fields[] = {
-    {"name", WORD(ld_adaptor, name), .required = true, .doc = "its name in results and paths"},
+    {"name", WORD(ld_adaptor, name), .required = true, .doc = "name in results and paths"},
     {"at", NUMBER(ld_adaptor, at, "m"), FROM_TO(0, 100), REQUIRED,
-     .doc = "x of its centre from the rear adaptor's"},
+     .doc = "x of its centre from the rear adaptor"},
     {"clearance", NUMBER(ld_adaptor, clearance, "m"), FROM_TO(0, 10),
-     NO_DEFAULT("needed in a bore unless the law is `bilateral` or `ideal`"),
-     .doc = "radial: inner radius at the tube's rear end less the adaptor's radius, > 0; on "
-            "surfaces: added to each gap of this shoe"},
+     NO_DEFAULT("required in a bore except with `bilateral`, `ideal`"),
+     .doc = "radial: rear inner radius of the tube less radius of the adaptor, > 0; on surfaces: "
+            "added to each gap of this shoe"},
     {0}};
 static const field_block adaptor_block = {.fields = adaptor_fields};
 
@@ -1073,25 +1054,24 @@ static const field_block adaptor_block = {.fields = adaptor_fields};
 static const field_word law_words[] = {LD_CONTACT_LAWS(LAW_WORD){NULL, 0}};
 static const field_row contact_fields[] = {
     {"law", CHOICE(ld_contact, law, law_words), DEFAULT(0),
-     .doc = "force over penetration; bilateral holds the adaptors on the axis by springs, ideal "
-            "exactly"},
+     .doc = "force over penetration; on the axis by springs (bilateral) or exactly (ideal)"},
     {"stiffness", NUMBER(ld_contact, stiffness, "N/m"), POSITIVE,
-     NO_DEFAULT("needed unless the law is `ideal`"),
-     .doc = "k, in N/m for every exponent; of ideal that of the breech alone"},
+     NO_DEFAULT("required except with `ideal`"),
+     .doc = "k, in N/m for every exponent; with ideal of the breech only"},
     {"exponent", NUMBER(ld_contact, exponent, ""), FROM_TO(1, 5), DEFAULT(1),
-     .doc = "n of k d_0 (p/d_0)^n; 1 for the laws kelvin-voigt and bilateral"},
+     .doc = "n of k d_0 (p/d_0)^n; 1 for kelvin-voigt, bilateral"},
     {"reference_penetration", NUMBER(ld_contact, reference_penetration, "m"), ABOVE_TO(0, 1),
      DEFAULT(1e-3), .doc = "d_0"},
     {"restitution", NUMBER(ld_contact, restitution, ""), FROM_TO(0, 1), DEFAULT(1),
-     .doc = "e (hunt-crossley and lankarani-nikravesh)"},
+     .doc = "e (hunt-crossley, lankarani-nikravesh)"},
     {"reference_speed", NUMBER(ld_contact, reference_speed, "m/s"), ABOVE_TO(0, 1000), DEFAULT(0.5),
-     .doc = "v_0, impact speed for which the restitution holds (hunt-crossley)"},
+     .doc = "v_0, speed of the contact for which restitution holds (hunt-crossley)"},
     {"damping", NUMBER(ld_contact, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "c (kelvin-voigt and bilateral only)"},
+     .doc = "c (kelvin-voigt, bilateral)"},
     {"friction", NUMBER(ld_contact, friction, ""), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "Coulomb coefficient between adaptors and tube (all laws but bilateral and ideal)"},
+     .doc = "Coulomb coefficient (except bilateral, ideal)"},
     {"friction_speed", NUMBER(ld_contact, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
-     .doc = "v_eps, speed at which friction is at 71 %, of tube contact and slot"},
+     .doc = "v_eps, speed at which friction reaches 71 %, in contact and slot"},
     {0}};
 static const field_block contact_block = {.fields = contact_fields};
 
@@ -1114,15 +1094,13 @@ static const field_word hold_words[] = {
     {"by-guide", LD_HOLD_BY_GUIDE}, {"yes", LD_HOLD_YES}, {"no", LD_HOLD_NO}, {NULL, 0}};
 static const field_row lock_fields[] = {
     {"release_force", NUMBER(ld_lock, release_force, "N"), POSITIVE, REQUIRED,
-     .doc = "carried force at which it releases"},
+     .doc = "carried force at which the lock releases"},
     {"hold_down", NUMBER(ld_lock, hold_down, "s"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "time from ignition before which it never releases; 0 s: it releases at the release "
-            "force at any time"},
+     .doc = "time from ignition before which it never releases"},
     {"at", SAME_STRUCT(lock_at_block), .initial_doc = "the rear adaptor's centre",
-     .doc = "point of the rocket that it holds along the tube"},
+     .doc = "point of the rocket that the lock holds"},
     {"holds_roll", CHOICE(ld_lock, holds_roll, hold_words), DEFAULT(LD_HOLD_BY_GUIDE),
-     .doc = "whether it holds the roll, too; `by-guide`: where there is neither a slot nor a flat "
-            "surface"},
+     .doc = "whether the lock holds the roll; `by-guide`: without slot and flat surfaces"},
     {0}};
 static const field_block lock_block = {.fields = lock_fields};
 static const field_word lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
@@ -1142,27 +1120,27 @@ static const field_word jet_damping_words[] = {
     {"no", LD_JET_DAMPING_NO}, {"yes", LD_JET_DAMPING_YES}, {NULL, 0}};
 static const field_row motor_fields[] = {
     {"thrust", TABLE(ld_motor, thrust, thrust_table), .required = true,
-     .doc = "over time from ignition, linear between rows, 0 after the last; a time given twice is "
-            "a jump; what was measured below 0 counts as 0"},
+     .doc = "over time from ignition, linear, 0 after the last row; a time given twice is a jump; "
+            "values below 0 count as 0"},
     {"at", VECTOR(ld_motor, at, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
-     .doc = "point of B where the thrust acts"},
+     .doc = "point of action in B"},
     {"misalignment", VECTOR(ld_motor, misalignment, "rad", 2), FROM_TO(-1, 1), DEFAULT(0),
-     .doc = "eps_y, eps_z: the thrust points along (1, eps_y, eps_z) of B"},
+     .doc = "eps_y, eps_z: thrust along (1, eps_y, eps_z) of B"},
     {"thrust_scale", NUMBER(ld_motor, thrust_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
      .doc = "factor on the thrust"},
     {"time_scale", NUMBER(ld_motor, time_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
      .doc = "factor on the times of the table"},
     {"jet_damping", CHOICE(ld_motor, jet_damping, jet_damping_words), DEFAULT(LD_JET_DAMPING_NO),
-     .doc = "in free flight, jet damping and the rates of mass, centre and inertia"},
+     .doc = "in free flight: jet damping and rates of mass, centre and inertia"},
     {"exit_radius", NUMBER(ld_motor, exit_radius, "m"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "of the nozzle, for jet damping"},
     {"masses", TABLE(ld_motor, masses, masses_table), .initial_doc = "none",
-     .doc = "over time from ignition, linear between rows, of the part of the rocket that loses "
-            "mass: propellant, tanks, motor or all of it, its moments of inertia about its own "
-            "centre; in place of rocket.empty and rocket.propellant"},
+     .doc =
+         "over time from ignition, linear, of the part that loses mass: propellant, tanks, motor "
+         "or all; inertia about its own centre; in place of rocket.empty and rocket.propellant"},
     {"masses_at", NUMBER(ld_motor, masses_at, "m"), FROM_TO(-100, 100), DEFAULT(0),
-     .doc = "x of B from which `masses` counts its centres forward; for an .rse file that of the "
-            "motor's front end"},
+     .doc =
+         "x of B from which the centres of `masses` count; for an .rse file the motor's front end"},
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
 
@@ -1190,19 +1168,19 @@ static const table_format coefficient_table = {TABLE_CSV | TABLE_BARE, 8, coeffi
                                                NULL};
 static const field_row crossflow_fields[] = {
     {"drag", NUMBER(ld_aerodynamics, crossflow.drag, ""), NOT_NEGATIVE, REQUIRED,
-     .doc = "coefficient of the drag of the lateral speed, on the reference area"},
+     .doc = "drag coefficient of the lateral speed, on the reference area"},
     {"at", NUMBER(ld_aerodynamics, crossflow.at, "m"), FROM_TO(-100, 100), REQUIRED,
-     .doc = "x of B where it acts"},
+     .doc = "x of its point of action in B"},
     {0}};
 static const field_block crossflow_block = {.fields = crossflow_fields};
 static const field_word emerged_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_row emerged_fields[] = {
     {"nose", NUMBER(ld_aerodynamics, emerged.nose, "m"), ABOVE_TO(0, 100), REQUIRED,
-     .doc = "x of B where the rocket ends; what lies between the tube's tip and it is in the air"},
+     .doc = "x of the nose in B; from the tube's tip to it the rocket is in the air"},
     {"drag", NUMBER(ld_aerodynamics, emerged.drag, ""), FROM_TO(0, 100), REQUIRED,
-     .doc = "C_c, coefficient of the drag of the lateral speed, on diameter times length"},
+     .doc = "C_c, drag coefficient of the lateral speed, on diameter times length"},
     {"diameter", NUMBER(ld_aerodynamics, emerged.diameter, "m"), ABOVE_TO(0, 100),
-     NO_DEFAULT("reference_diameter; needed by a plain body"), .doc = "D"},
+     NO_DEFAULT("reference_diameter; required by a plain body"), .doc = "D"},
     {0}};
 static const field_block emerged_block = {.fields = emerged_fields};
 // ---- the air by surface
@@ -1257,37 +1235,36 @@ static const field_word nose_shapes[] = {{"cone", LD_NOSE_CONE},
 #define FINS FORM(LD_AIR_FINS)
 #define LENGTH ABOVE_TO(0, 100)
 static const field_row air_surface_fields[] = {
-    {"name", WORD(ld_air_surface, name), .required = true,
-     .doc = "what the surface is called by the paths of keys"},
+    {"name", WORD(ld_air_surface, name), .required = true, .doc = "name in paths"},
     {"kind", CHOICE(ld_air_surface, kind, air_surface_kinds), DEFAULT(LD_AIR_COEFFICIENTS),
-     .doc = "given by coefficients, or by a shape of which Barrowman's formulas make them"},
+     .doc = "by coefficients, or by a shape (Barrowman's formulas)"},
     {"at", NUMBER(ld_air_surface, at, "m"), FROM_TO(-100, 100), REQUIRED,
-     .doc = "x of B: of coefficients where the force acts, of a shape its front end (of fins that "
-            "of the root chord)"},
+     .doc = "x in B: with coefficients point of action, with a shape its front end (fins: of the "
+            "root chord)"},
     {"slope", TABLE(ld_air_surface, slope, slope_table), .required = true, .forms = COEFFICIENTS,
-     .doc = "of the lateral force, per radian, over the Mach number"},
+     .doc = "of the lateral force, per radian"},
     {"area", NUMBER(ld_air_surface, area, "m2"), POSITIVE, NO_DEFAULT("pi d^2/4"),
      .forms = COEFFICIENTS, .doc = "reference area of the coefficients"},
     {"roll_forcing", TABLE(ld_air_surface, roll_forcing, forcing_table), .initial_doc = "0",
-     .forms = COEFFICIENTS, .doc = "moment about x per radian of cant, with the length d"},
+     .forms = COEFFICIENTS, .doc = "moment about x per radian of cant, length d"},
     {"roll_damping", TABLE(ld_air_surface, roll_damping, roll_damping_table), .initial_doc = "0",
-     .forms = COEFFICIENTS, .doc = "moment about x for rates times d/(2 V), with the length d"},
+     .forms = COEFFICIENTS, .doc = "moment about x for rates times d/(2 V), length d"},
     {"shape", CHOICE(ld_air_surface, shape, nose_shapes), .required = true, .forms = NOSE,
-     .doc = "the ogive is tangent, haack has the least drag for length and volume"},
+     .doc = "tangent ogive; haack: least drag for length and volume"},
     {"length", NUMBER(ld_air_surface, length, "m"), LENGTH, REQUIRED,
      .forms = NOSE | CYLINDER | TAIL, .doc = "along the axis"},
     {"radius", NUMBER(ld_air_surface, radius, "m"), LENGTH, REQUIRED,
-     .forms = NOSE | CYLINDER | FINS, .doc = "of the nose's base, of the body, of that under fins"},
+     .forms = NOSE | CYLINDER | FINS, .doc = "of the nose's base, the body, the body under fins"},
     {"front_radius", NUMBER(ld_air_surface, front_radius, "m"), FROM_TO(0, 100), REQUIRED,
-     .forms = TAIL, .doc = "of a part that grows narrower or wider, at its front end"},
+     .forms = TAIL, .doc = "at the front end"},
     {"rear_radius", NUMBER(ld_air_surface, rear_radius, "m"), FROM_TO(0, 100), REQUIRED,
-     .forms = TAIL, .doc = "at its rear end"},
+     .forms = TAIL, .doc = "at the rear end"},
     {"body_lift", NUMBER(ld_air_surface, body_lift, ""), FROM_TO(0, 100), DEFAULT(0),
      .forms = NOSE | CYLINDER | TAIL,
-     .doc = "K of a lateral force of K times the area seen from the side times the lateral speed's "
-            "pressure; 1.1 to 1.5 are usual"},
+     .doc = "K of the lateral force K times side area times dynamic pressure of the lateral speed; "
+            "usually 1.1 to 1.5"},
     {"fin_count", INTEGER(ld_air_surface, count, 3, 8), REQUIRED, .forms = FINS,
-     .doc = "of fins, evenly around the body"},
+     .doc = "number, evenly around the body"},
     {"root_chord", NUMBER(ld_air_surface, root_chord, "m"), LENGTH, REQUIRED, .forms = FINS,
      .doc = "along the body"},
     {"tip_chord", NUMBER(ld_air_surface, tip_chord, "m"), FROM_TO(0, 100), REQUIRED, .forms = FINS,
@@ -1295,7 +1272,7 @@ static const field_row air_surface_fields[] = {
     {"span", NUMBER(ld_air_surface, span, "m"), LENGTH, REQUIRED, .forms = FINS,
      .doc = "of one fin, from the body's surface"},
     {"sweep_length", NUMBER(ld_air_surface, sweep_length, "m"), FROM_TO(-100, 100), DEFAULT(0),
-     .forms = FINS, .doc = "by which the tip's leading edge is behind the root's"},
+     .forms = FINS, .doc = "of the tip's leading edge behind the root's"},
     {"cant", NUMBER(ld_air_surface, cant, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
      .forms = COEFFICIENTS | FINS, .doc = "positive spins about +x"},
     {"slope_scale", NUMBER(ld_air_surface, slope_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
@@ -1312,49 +1289,45 @@ static const field_block air_surface_block = {.fields = air_surface_fields,
 #define PLAIN_BODY .forms = FORM(LD_AERODYNAMICS_BODY)
 static const field_row aerodynamics_fields[] = {
     {"model", CHOICE(ld_aerodynamics, model, aerodynamics_models), DEFAULT(LD_AERODYNAMICS_TABLE),
-     .doc =
-         "coefficients over the Mach number of the whole rocket or by surface, or a body with drag "
-         "and damping at its mass centre"},
+     .doc = "coefficients over the Mach number (table), by surface, or a body with drag and "
+            "damping at its mass centre"},
     {"reference_diameter", NUMBER(ld_aerodynamics, reference_diameter, "m"), ABOVE_TO(0, 100),
-     REQUIRED, OVER_MACH, .doc = "d, the only length; the area is pi d^2/4"},
+     REQUIRED, OVER_MACH, .doc = "d, the reference length; reference area pi d^2/4"},
     {"fin_cant", NUMBER(ld_aerodynamics, fin_cant, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
      TABLED, .doc = "positive spins about +x"},
     {"interpolation", CHOICE(ld_aerodynamics, interpolation, interpolation_words),
-     DEFAULT(LD_PCHIP), OVER_MACH, .doc = "between the rows of tables over the Mach number"},
+     DEFAULT(LD_PCHIP), OVER_MACH, .doc = "between rows over the Mach number"},
     {"beyond_table", CHOICE(ld_aerodynamics, beyond_table, beyond_words), DEFAULT(LD_BEYOND_ERROR),
-     OVER_MACH,
-     .doc = "past the last Mach number, of fins by their shape 10: stop, or keep its values"},
+     OVER_MACH, .doc = "past the last Mach number (fins by shape: 10): stop, or hold its values"},
     {"table", TABLE(ld_aerodynamics, table, coefficient_table), .required = true, TABLED,
-     .doc =
-         "coefficients; cn_alpha and cl_delta per radian, x_cp in m forward of the rear adaptor, "
-         "cl_p and cm_q for rates times d/(2 V)"},
+     .doc = "cn_alpha and cl_delta per radian, x_cp forward of the rear adaptor, cl_p and cm_q for "
+            "rates times d/(2 V)"},
     {"crossflow", SAME_STRUCT(crossflow_block), .initial_doc = "none", OVER_MACH,
      SWITCH(ld_aerodynamics, crossflow.present, crossflow_words), .other_is_bool = true,
-     .doc = "drag of large angles of attack"},
+     .doc = "drag at large angles of attack"},
     {"emerged", SAME_STRUCT(emerged_block), .initial_doc = "none",
      SWITCH(ld_aerodynamics, emerged.present, emerged_words), .other_is_bool = true,
-     .doc = "drag of the lateral speed on the part of the rocket that has come out of its bore, "
-            "until the rear adaptor does"},
+     .doc = "drag of the lateral speed on the emerged part, until the exit"},
     {"ca_scale", NUMBER(ld_aerodynamics, ca_scale, ""), FROM_TO(0, 1000), DEFAULT(1), OVER_MACH,
      .doc = "factor on ca_power_off and ca_power_on"},
     {"cn_scale", NUMBER(ld_aerodynamics, cn_scale, ""), FROM_TO(0, 1000), DEFAULT(1), OVER_MACH,
-     .doc = "factor on cn_alpha, or on every surface's slope"},
+     .doc = "factor on cn_alpha or every slope"},
     {"x_cp_shift", NUMBER(ld_aerodynamics, x_cp_shift, "m"), FROM_TO(-100, 100), DEFAULT(0),
-     OVER_MACH, .doc = "added to x_cp, or to every surface's place"},
+     OVER_MACH, .doc = "added to x_cp or every position"},
     {"area", NUMBER(ld_aerodynamics, area, "m2"), NOT_NEGATIVE, REQUIRED, PLAIN_BODY,
      .doc = "reference area"},
     {"drag", NUMBER(ld_aerodynamics, drag, ""), NOT_NEGATIVE, DEFAULT(0), PLAIN_BODY,
-     .doc = "coefficient, in every direction"},
+     .doc = "coefficient in every direction"},
     {"damping", VECTOR(ld_aerodynamics, damping, "", 3), ANY, DEFAULT(0), PLAIN_BODY,
      .doc = "moment coefficients of the rates about x, y, z times l_i/(2 V)"},
     {"lengths", VECTOR(ld_aerodynamics, lengths, "m", 3), NOT_NEGATIVE, DEFAULT(0), PLAIN_BODY,
      .doc = "l_i, reference lengths of the damping about x, y, z"},
     {"axial", TABLE(ld_aerodynamics, axial, axial_table), .required = true, BY_SURFACE,
-     .doc = "coefficient of the axial force, on the reference area; with three columns one while "
-            "the motor burns"},
+     .doc =
+         "of the axial force, on the reference area; with three columns one while the motor burns"},
     {"surfaces",
      LIST(ld_aerodynamics, surface, surface_count, air_surface_block, 1, LD_MAX_AIR_SURFACES),
-     .required = true, BY_SURFACE, .doc = "what carries the lateral force"},
+     .required = true, BY_SURFACE, .doc = "surfaces with lateral force"},
     {0}};
 static const field_block aerodynamics_block = {.fields = aerodynamics_fields,
                                                .form = aerodynamics_models,
@@ -1366,20 +1339,19 @@ static const field_word trigger_words[] = {{"apogee", LD_TRIGGER_APOGEE},
                                            {"height", LD_TRIGGER_HEIGHT},
                                            {NULL, 0}};
 static const field_row parachute_fields[] = {
-    {"name", WORD(ld_parachute, name), .required = true, .doc = "its name in results and paths"},
+    {"name", WORD(ld_parachute, name), .required = true, .doc = "name in results and paths"},
     {"drag_area", NUMBER(ld_parachute, drag_area, "m2"), ABOVE_TO(0, 1e5), REQUIRED,
-     .doc = "drag coefficient times area when it is full, with what hangs below it"},
+     .doc = "drag coefficient times area when full, with its load"},
     {"trigger", CHOICE(ld_parachute, trigger, trigger_words), .required = true,
-     .doc =
-         "the highest point, a time from ignition, or a height above the ground on the way down"},
+     .doc = "apogee, time from ignition, or height above ground on the descent"},
     {"time", NUMBER(ld_parachute, time, "s"), FROM_TO(0, 10000), REQUIRED,
      .forms = FORM(LD_TRIGGER_TIME), .doc = "from ignition"},
     {"height", NUMBER(ld_parachute, height, "m"), FROM_TO(0, 1e6), REQUIRED,
      .forms = FORM(LD_TRIGGER_HEIGHT), .doc = "of the mass centre above the ground"},
     {"lag", NUMBER(ld_parachute, lag, "s"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "from the trigger until it begins to open"},
+     .doc = "from the trigger to the opening"},
     {"filling", NUMBER(ld_parachute, filling, "s"), FROM_TO(0, 100), DEFAULT(0),
-     .doc = "in which the drag area goes linearly to its own from that of the one before"},
+     .doc = "duration of the linear change from the previous drag area"},
     {0}};
 static const field_block parachute_block = {.fields = parachute_fields,
                                             .form = trigger_words,
@@ -1403,12 +1375,10 @@ static const table_format brakes_height_table = {TABLE_CSV, 2, brakes_height_col
 static const field_row air_brakes_fields[] = {
     {"over_time", TABLE(ld_air_brakes, over_time, brakes_time_table), .required = true,
      .forms = FORM(LD_BRAKES_OVER_TIME),
-     .doc =
-         "drag coefficient times area over the time from ignition, linear between rows, constant "
-         "before the first and after the last"},
+     .doc = "drag coefficient times area over the time from ignition, linear, constant outside"},
     {"over_height", TABLE(ld_air_brakes, over_height, brakes_height_table), .required = true,
      .forms = FORM(LD_BRAKES_OVER_HEIGHT),
-     .doc = "the same over the height of the mass centre above the ground"},
+     .doc = "the same over the mass centre's height above ground"},
     {"scale", NUMBER(ld_air_brakes, scale, ""), FROM_TO(0, 1000), DEFAULT(1),
      .doc = "factor on the drag area"},
     {0}};
@@ -1429,27 +1399,26 @@ static const field_word motor_words[] = {{"", 0}, {"none", 1}, {NULL, 0}};
 
 static const field_row rocket_fields[] = {
     {"start_at", NUMBER(ld_model, rocket.start_at, "m"), FROM_TO(0, 100), DEFAULT(0), IN_TUBE,
-     .doc = "rear adaptor from the tube's rear end at the start, where the breech stands"},
+     .doc = "start position of the rear adaptor (the breech) from the tube's rear end"},
     {"mass", NUMBER(ld_model, rocket.full.mass, "kg"), POSITIVE, REQUIRED, .doc = "at ignition"},
     {"center", VECTOR(ld_model, rocket.full.center, "m", 3), FROM_TO(-100, 100), REQUIRED,
-     NOT_IN_FLIGHT("0 m in a flight alone"),
-     .doc = "mass centre from the rear adaptor's centre, in B"},
+     NOT_IN_FLIGHT("0 m in flight only"), .doc = "mass centre from the rear adaptor, in B"},
     {"inertia", VECTOR(ld_model, rocket.full.inertia, "kg.m2", 3), POSITIVE, REQUIRED,
      .doc = "about the mass centre"},
     {"products_of_inertia", VECTOR(ld_model, rocket.products, "kg.m2", 3), ANY, DEFAULT(0),
      .doc = "elements J_xy, J_xz, J_yz of the matrix, full and empty"},
     {"dynamic_imbalance", VECTOR(ld_model, rocket.dynamic_imbalance, "rad", 2), FROM_TO(-1, 1),
      DEFAULT(0),
-     .doc = "delta_y, delta_z: inertia and products, full and empty, are about axes of which x "
-            "points along (1, delta_y, delta_z) of B"},
+     .doc = "delta_y, delta_z: axes of inertia and products (full and empty), x along (1, delta_y, "
+            "delta_z) of B"},
     {"mass_error", NUMBER(ld_model, rocket.mass_error, "kg"), ANY, DEFAULT(0),
-     .doc = "added to the full and the empty mass, at the mass centre"},
+     .doc = "added to full and empty mass, at the mass centre"},
     {"eccentricity", VECTOR(ld_model, rocket.eccentricity, "m", 2), FROM_TO(-10, 10), DEFAULT(0),
-     .doc = "y, z, added to the full and the empty mass centre"},
+     .doc = "y, z, added to full and empty mass centre"},
     {"propellant", NUMBER(ld_model, rocket.propellant, "kg"), NOT_NEGATIVE,
      NO_DEFAULT("mass less empty"), .doc = "burnt mass"},
     {"empty", BLOCK(ld_model, rocket.empty, empty_block), .initial_doc = "as full",
-     .doc = "at burn-out; without it the mass is constant"},
+     .doc = "at burn-out; without: constant mass"},
     {"adaptors",
      LIST(ld_model, rocket.adaptor, rocket.adaptor_count, adaptor_block, 2, LD_MAX_ADAPTORS),
      .required = true, IN_TUBE, .doc = "the first is the rear one, at 0 m"},
@@ -1459,25 +1428,23 @@ static const field_row rocket_fields[] = {
      .doc = "runs in the slot"},
     {"lock", BLOCK(ld_model, rocket.lock, lock_block), .required = true, IN_TUBE,
      SWITCH(ld_model, rocket.lock.present, lock_words), .other_is_bool = true,
-     .doc = "holds the rocket until the release force; `none`: it rests on the breech"},
+     .doc = "holds the rocket until the release force; `none`: rests on the breech"},
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
-     NOT_IN_FLIGHT("none in a flight alone"), SWITCH(ld_model, rocket.motor.absent, motor_words),
-     .other_is_bool = true, .doc = "thrust; `none`: a flight alone, or a launch by tubes.pressure"},
+     NOT_IN_FLIGHT("none in flight only"), SWITCH(ld_model, rocket.motor.absent, motor_words),
+     .other_is_bool = true, .doc = "thrust; `none`: flight only, or launch by tubes.pressure"},
     {"parachutes",
      LIST(ld_model, rocket.parachute, rocket.parachute_count, parachute_block, 0,
           LD_MAX_PARACHUTES),
      .silent = true, .initial_doc = "none",
-     .doc = "under which the rocket comes down, each in the place of the one before it"},
+     .doc = "of the descent, each replaces the previous one"},
     {"air_brakes", BLOCK(ld_model, rocket.air_brakes, air_brakes_block), .initial_doc = "none",
      SWITCH(ld_model, rocket.air_brakes.present, brakes_words), .other_is_bool = true,
-     .doc = "drag along the rocket's axis, at the mass centre, besides that of `aerodynamics`, in "
-            "free flight"},
+     .doc = "additional drag along the axis at the mass centre, in free flight"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,
-     .doc =
-         "air forces in free flight and, on a guide of surfaces, from the start on; in a bore, by "
-         "its key emerged, on what has come out of it"},
+     .doc = "air forces in free flight and, on a guide of surfaces, from the start; in a bore by "
+            "`emerged`"},
     {0}};
 static const field_block rocket_block = {
     .fields = rocket_fields, .form = kind_words, .form_offset = offsetof(ld_model, base.kind)};
@@ -1504,7 +1471,7 @@ static const field_row attitude_fields[] = {
     {"yaw", NUMBER(ld_flight, yaw, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
      .forms = FORM(LD_ATTITUDE_YAW), .doc = "against I, about +y: positive to the left"},
     {"heading", NUMBER(ld_flight, heading, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
-     .forms = FORM(LD_ATTITUDE_HEADING), .doc = "in place of yaw: clockwise from north"},
+     .forms = FORM(LD_ATTITUDE_HEADING), .doc = "clockwise from north, in place of yaw"},
     {"pitch", NUMBER(ld_flight, pitch, "rad"), FROM_TO(-PI, PI), DEFAULT(0), ANGLES,
      .doc = "positive up"},
     {"roll", NUMBER(ld_flight, roll, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0), ANGLES,
@@ -1524,14 +1491,14 @@ static const field_word against_words[] = {
     {"inertial", LD_AGAINST_INERTIAL}, {"earth", LD_AGAINST_EARTH}, {NULL, 0}};
 static const field_row flight_fields[] = {
     {"ignition", NUMBER(ld_flight, ignition, "s"), FROM_TO(-10000, 10000), DEFAULT(0),
-     .doc = "on the run's clock, which is 0 at the start: decides thrust and burnt propellant"},
+     .doc = "on the run's clock (0 at the start): sets thrust and burnt propellant"},
     {"point", CHOICE(ld_flight, point, point_words), DEFAULT(LD_POINT_REAR),
-     .doc = "what position and velocity belong to: the rear adaptor's or the mass centre"},
+     .doc = "point of position and velocity: rear adaptor or mass centre"},
     {"position", VECTOR(ld_flight, position, "m", 3), FROM_TO(-1e8, 1e8),
      NO_DEFAULT("this or geodetic"), .doc = "in I"},
     {"geodetic", SAME_STRUCT(geodetic_block), .initial_doc = "none",
      SWITCH(ld_flight, geodetic.present, geodetic_words), .other_is_bool = true,
-     .doc = "place on the Earth in place of position"},
+     .doc = "position on the Earth, in place of position"},
     {"velocity", VECTOR(ld_flight, velocity, "m/s", 3), FROM_TO(-1e5, 1e5),
      NO_DEFAULT("this, speed or velocity_ned"), .doc = "relative to the Earth, in I"},
     {"speed", NUMBER(ld_flight, speed, "m/s"), FROM_TO(-1e5, 1e5), NO_DEFAULT("see velocity"),
@@ -1542,29 +1509,29 @@ static const field_row flight_fields[] = {
      .doc = "Ry(yaw) Rz(pitch) Rx(roll) against I, or Ry(-heading) Rz(pitch) Rx(roll) against "
             "north, up and east"},
     {"quaternion", VECTOR(ld_flight, quaternion, "", 4), FROM_TO(-1e6, 1e6),
-     NO_DEFAULT("the attitude"), .doc = "of B against I, scalar part first, in place of attitude"},
+     NO_DEFAULT("the attitude"), .doc = "of B against I, scalar first, in place of attitude"},
     {"rate", VECTOR(ld_flight, rate, "rad/s", 3), FROM_TO(-1e4, 1e4), DEFAULT(0),
      .doc = "angular velocity, in B"},
     {"rate_against", CHOICE(ld_flight, rate_against, against_words), DEFAULT(LD_AGAINST_INERTIAL),
-     .doc = "what it is relative to"},
+     .doc = "reference of rate"},
     {0}};
 static const field_block flight_block = {.fields = flight_fields};
 
 // ---- firing, run
 
-static const field_row firing_fields[] = {
-    {"tube", INTEGER(ld_firing, tube, 1, 10000), .required = true,
-     .doc = "number of the tube: (row - 1) columns + column"},
-    {"at", NUMBER(ld_firing, at, "s"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "ignition, counted from the end of the lead-in"},
-    {0}};
+static const field_row firing_fields[] = {{"tube", INTEGER(ld_firing, tube, 1, 10000),
+                                           .required = true,
+                                           .doc = "number: (row - 1) columns + column"},
+                                          {"at", NUMBER(ld_firing, at, "s"), FROM_TO(0, 10000),
+                                           DEFAULT(0), .doc = "ignition, on the run's clock"},
+                                          {0}};
 static const field_block firing_block = {.fields = firing_fields};
 
 static const field_row order_fields[] = {
     {"order", INTEGERS(ld_firing_order, tube, tube_count, 1, 10000, LD_MAX_FIRINGS), .least = 1,
-     .required = true, .doc = "numbers of the tubes, in the order of firing"},
+     .required = true, .doc = "tubes in the order of firing"},
     {"start", NUMBER(ld_firing_order, start, "s"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "first ignition, counted from the end of the lead-in"},
+     .doc = "first ignition, on the run's clock"},
     {"interval", NUMBER(ld_firing_order, interval, "s"), ABOVE_TO(0, 10000), REQUIRED,
      .doc = "from one ignition to the next"},
     {0}};
@@ -1577,8 +1544,8 @@ static const field_row firing_order = {"firing", BLOCK(ld_model, firing_order, o
 #define OUTPUT_STEP(member) NUMBER(ld_run_settings, member, "s"), .range = {1e-6, 100, 0, 0}
 static const field_row output_step_fields[] = {
     {"lead_in", OUTPUT_STEP(output_step_lead_in), DEFAULT(5e-3),
-     .doc = "before ignition, and between one rocket's exit and the next one's ignition"},
-    {"tube", OUTPUT_STEP(output_step_tube), DEFAULT(1e-4), .doc = "from ignition on"},
+     .doc = "before ignition, and from an exit to the next ignition"},
+    {"tube", OUTPUT_STEP(output_step_tube), DEFAULT(1e-4), .doc = "from ignition"},
     {"flight", OUTPUT_STEP(output_step_flight), DEFAULT(2e-2), .doc = "in free flight"},
     {0}};
 static const field_block output_step_block = {.fields = output_step_fields, .shared_value = true};
@@ -1604,37 +1571,34 @@ static const field_word end_words[] = {{"tip", LD_END_TIP},
                                        {NULL, 0}};
 static const field_row run_fields[] = {
     {"start", CHOICE(ld_run_settings, start, start_words), DEFAULT(LD_START_EQUILIBRIUM),
-     .doc = "static equilibrium under gravity, or straight and at rest"},
+     .doc = "static equilibrium, or straight and at rest"},
     {"formulation", CHOICE(ld_run_settings, formulation, formulation_words),
      DEFAULT(LD_FORMULATION_REDUCED),
-     .doc = "reduced transfer equation, or the overall one of order 19"},
+     .doc = "reduced transfer equation, or the overall one (order 19)"},
     {"lead_in", NUMBER(ld_run_settings, lead_in, "s"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "time before t = 0"},
+     .doc = "settling phase before t = 0"},
     {"lead_in_method", CHOICE(ld_run_settings, lead_in_method, lead_in_words),
      DEFAULT(LD_LEAD_IN_EXPONENTIAL),
-     .doc = "steps while no rocket moves in its tube: as in the tube, or long ones by the "
-            "linearised equations"},
+     .doc =
+         "steps while no rocket moves: as in the tube, or long ones by the linearised equations"},
     {"end", CHOICE(ld_run_settings, end, end_words), DEFAULT(LD_END_TIP),
      .other = offsetof(ld_run_settings, end_time), .unit = "s", .range = {0, 10000, 1, 0},
-     .doc =
-         "when the last rocket has left the tube (a flight alone: as landing), when each is at its "
-         "highest point, when it has landed, or a time after the last ignition until which "
-         "launcher and rockets are followed"},
+     .doc = "exit of the last rocket (flight only: landing), a time after the last ignition, "
+            "apogee or landing of each"},
     {"tolerance", NUMBER(ld_run_settings, tolerance, ""), FROM_TO(1e-12, 1e-2), DEFAULT(1e-5),
      .doc = "relative tolerance of the integrator"},
     {"max_step", NUMBER(ld_run_settings, max_step, "s"), FROM_TO(1e-7, 1),
      NO_DEFAULT("0.2 ms, times (tolerance/1e-5)^(1/5) above 1e-5"),
-     .doc = "longest step in the tube; a longer one can miss a short contact"},
+     .doc = "longest step in the tube; longer ones can miss short contacts"},
     {"exit_error", CHOICE(ld_run_settings, exit_error, exit_error_words),
-     DEFAULT(LD_EXIT_ERROR_YES),
-     .doc = "whether a run estimates the integration error of the exit rates"},
+     DEFAULT(LD_EXIT_ERROR_YES), .doc = "estimate of the integration error of the exit rates"},
     {"output_step", SAME_STRUCT(output_step_block), .initial_doc = "as below",
-     .doc = "time between rows of the history; one value for all, or one each"},
+     .doc = "time between rows of the history"},
     {"stuck_time", NUMBER(ld_run_settings, stuck_time, "s"), ABOVE_TO(0, 10000),
      NO_DEFAULT("end of the thrust table + 1 s"),
-     .doc = "after ignition, when a rocket still in the tube is given up"},
+     .doc = "time after ignition at which a rocket still in the tube ends the run"},
     {"coupling", SAME_STRUCT(coupling_block), .initial_doc = "none",
-     .doc = "partitioned integration of the subsystems of a vehicle"},
+     .doc = "partitioned integration of a vehicle's subsystems"},
     {"flight_limit", NUMBER(ld_run_settings, flight_limit, "s"), ABOVE_TO(0, 1e5), DEFAULT(600),
      .doc = "longest free flight"},
     {"flight_tolerance", NUMBER(ld_run_settings, flight_tolerance, ""), FROM_TO(1e-14, 1e-2),
@@ -1651,22 +1615,19 @@ static const field_word take_words[] = {{"value", LD_TAKE_VALUE},   {"peak", LD_
     .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_CHANGE) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
 static const double all_of_it[] = {0, 1e5};
 static const field_row measure_fields[] = {
-    {"name", WORD(ld_measure, name), .required = true, .doc = "the result is called measure.NAME"},
+    {"name", WORD(ld_measure, name), .required = true, .doc = "the result is measure.NAME"},
     {"of", QUANTITY(ld_measure, of), .required = true,
-     .doc = "a column of the launch, or of a flight (quantities.md)"},
+     .doc = "column of launch or flight (quantities.md)"},
     {"take", CHOICE(ld_measure, take, take_words), .required = true,
-     .doc =
-         "its value at an instant; its largest magnitude, largest change since `from`, root mean "
-         "square or mean in a window"},
+     .doc = "value at an instant; in a window largest magnitude, largest change since `from`, rms "
+            "or mean"},
     {"at", QUANTITY(ld_measure, from), .required = true, .forms = FORM(LD_TAKE_VALUE),
-     .doc = "instant (Measures, above)"},
-    {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW,
-     .doc = "instant at which the window begins"},
-    {"to", QUANTITY(ld_measure, to), .required = true, IN_WINDOW,
-     .doc = "instant at which it ends"},
+     .doc = "instant"},
+    {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW, .doc = "begin of the window"},
+    {"to", QUANTITY(ld_measure, to), .required = true, IN_WINDOW, .doc = "end of the window"},
     {"within", VECTOR(ld_measure, within, "s", 2), FROM_TO(0, 1e5), .initials = all_of_it,
      IN_WINDOW, .initial_doc = "all of it",
-     .doc = "of the window only what lies between these times after `from`"},
+     .doc = "part of the window between these times after `from`"},
     {0}};
 static const field_block measure_block = {.fields = measure_fields,
                                           .form = take_words,
@@ -1686,18 +1647,17 @@ static const field_row scatter_fields[] = {
      .doc = "independent samples, or Latin hypercubes"},
     {"replicates", INTEGER(ld_scatter, replicates, 1, 1000000), DEFAULT(1),
      .forms = FORM(LD_PLAN_LHS),
-     .doc = "independent hypercubes of samples/replicates each; intervals come from them"},
+     .doc = "independent hypercubes of samples/replicates each, for intervals"},
     {"factors", .kind = FIELD_FACTORS, .offset = offsetof(ld_scatter, factor),
      .other = offsetof(ld_scatter, factor_count), .required = true,
-     .doc = "what is scattered: any number of the scenario by its path, several by `paths` under a "
-            "name"},
+     .doc = "uncertain numbers by path, or several by `paths` under a name"},
     {"correlated", .kind = FIELD_CORRELATED, .offset = offsetof(ld_scatter, correlated),
      .other = offsetof(ld_scatter, correlated_count), .initial_doc = "none",
-     .doc = "groups of factors that depend on one another"},
+     .doc = "groups of correlated factors"},
     {"until", .kind = FIELD_UNTIL, .offset = offsetof(ld_scatter, until),
      .other = offsetof(ld_scatter, until_count), .count = LD_MAX_UNTIL,
      .initial_doc = "all samples",
-     .doc = "how well the mean or the deviation of results must be known for no more samples"},
+     .doc = "half widths of means or deviations at which the study stops"},
     {0}};
 static const field_block scatter_block = {.fields = scatter_fields,
                                           .form = plan_words,
@@ -1710,33 +1670,31 @@ static const field_row scenario_fields[] = {
     {"launchdyn", .kind = FIELD_INTEGER, .offset = FIELD_NOWHERE, .required = true,
      .range = {1, 1, 0, 0}, .doc = "version of the language"},
     {"title", .kind = FIELD_TEXT, .offset = offsetof(ld_model, title), .initial_doc = "none",
-     .doc = "one line that names the scenario"},
+     .doc = "name of the scenario, one line"},
     {"environment", SAME_STRUCT(environment_block), .initial_doc = "as below",
      .doc = "gravity, Earth, air and wind"},
     {"base", BLOCK(ld_model, base, base_block), .required = true, IN_TUBE,
-     .doc = "what carries the tube"},
+     .doc = "base of the tube"},
     {"platform", BLOCK(ld_model, platform, platform_block), .required = true, .forms = VEHICLE,
      .doc = "chassis and platforms of a vehicle"},
     {"tubes", BLOCK(ld_model, tubes, tubes_block), .required = true, IN_TUBE,
-     .doc = "launch tubes, all alike"},
+     .doc = "launch tubes, all equal"},
     {"rocket", SAME_STRUCT(rocket_block), .required = true, .doc = "the rocket"},
     {"firing", LIST(ld_model, firing, firing_count, firing_block, 1, LD_MAX_FIRINGS),
      .alternative = &firing_order, IN_TUBE, .initial_doc = "tube 1 at 0 s",
-     .doc = "tubes and their ignition times"},
+     .doc = "tubes and ignition times"},
     {"run", BLOCK(ld_model, run, run_block), .initial_doc = "as below",
      .doc = "start, end, tolerances, output"},
     {"measures", LIST(ld_model, measure, measure_count, measure_block, 0, LD_MAX_MEASURES),
-     .silent = true, .initial_doc = "none",
-     .doc = "results besides those that every run has (Measures, above)"},
+     .silent = true, .initial_doc = "none", .doc = "user-defined results"},
     {"flight", BLOCK(ld_model, flight, flight_block), .required = true, .forms = IN_FLIGHT,
-     .doc = "flight alone, in place of base, platform, tubes, firing and what the rocket has for "
-            "the tube"},
+     .doc = "scenario of flight only, without launcher"},
     {"scatter", BLOCK(ld_model, scatter, scatter_block), .initial_doc = "none",
      SWITCH(ld_model, scatter.present, given_words), .other_is_bool = true,
-     .doc = "random factors of a study (Scatter, above)"},
+     .doc = "uncertain inputs of a study"},
     {"sweep", .kind = FIELD_SWEEP, .offset = offsetof(ld_model, sweep),
      .other = offsetof(ld_model, sweep_count), .initial_doc = "none",
-     .doc = "keys that a study varies, over all combinations of their values (Sweep, above)"},
+     .doc = "keys with values that a study combines"},
     {0}};
 const field_block scenario_block = {.fields = scenario_fields,
                                     .form = kind_words,

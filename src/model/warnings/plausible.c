@@ -189,21 +189,43 @@ static void write_bounds(FILE *stream, const plausible_rule *rule)
     }
 }
 
-static void write_rule(FILE *stream, const plausible_rule *rule)
+static bool are_equal(const char *a, const char *b)
 {
-    fprintf(stream, "| ");
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+// Whether two rules differ by their paths alone.
+static bool are_alike(const plausible_rule *a, const plausible_rule *b)
+{
+    return are_equal(a->what, b->what) && are_equal(a->other, b->other) &&
+           strcmp(a->unit, b->unit) == 0 && a->low == b->low && a->high == b->high;
+}
+
+// A line with the paths of all rules like this one, unless a rule before it has it.
+static void write_rule(FILE *stream, const plausible_rule *table, const plausible_rule *rule)
+{
+    for (const plausible_rule *before = table; before < rule; before++)
+        if (are_alike(before, rule) && !is_of_elevation(before))
+            return;
+    fprintf(stream, "- ");
     write_path(stream, rule, rule->path);
-    fprintf(stream, "%s%s | ", rule->what ? ": " : "", rule->what ? rule->what : "");
+    for (const plausible_rule *next = rule + 1; next->path; next++)
+        if (are_alike(rule, next) && !is_of_elevation(next)) {
+            fprintf(stream, ", ");
+            write_path(stream, next, next->path);
+        }
+    bool article = rule->what && strncmp(rule->what, "the ", 4) == 0;
+    fprintf(stream, "%s%s: ", rule->what ? ", " : "", rule->what ? rule->what + 4 * article : "");
     write_bounds(stream, rule);
-    fprintf(stream, " |\n");
+    fprintf(stream, "\n");
 }
 
 void plausible_write_markdown(FILE *stream)
 {
-    fprintf(stream, "\n| key | expected |\n| --- | --- |\n");
+    fprintf(stream, "\n");
     for (int i = 0; i < TABLES; i++)
         for (const plausible_rule *rule = tables[i]; rule->path; rule++)
             if (!is_of_elevation(rule))
-                write_rule(stream, rule);
+                write_rule(stream, tables[i], rule);
     fprintf(stream, "\n");
 }

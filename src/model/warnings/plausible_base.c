@@ -197,7 +197,7 @@ const plausible_rule plausible_of_base[] = {
      .other = "the median of these times", NO_LOW, .high = 10, .find = motion_gap,
      .why = "in a gap the motion is only that of a spline"},
     {"base.motion.table.#", "the distance from a spline through every second row", .unit = "m",
-     .other = "the range of that coordinate, less its mean rate,", NO_LOW, .high = 0.01,
+     .other = "the range of that coordinate without its mean rate", NO_LOW, .high = 0.01,
      .find = motion_coarse, .why = "rows so coarse or noisy give no acceleration"},
     {"base.sea.height", "the steepness of the waves", .unit = "", NO_LOW, .high = 0.07,
      .find = sea_steepness, .of = "base.sea.period", .why = "steeper waves break"},
