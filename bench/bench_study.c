@@ -10,6 +10,7 @@
 #include "bench_scratch.h"
 #include "flight/flight_lanes.h"
 #include "launchdyn/study.h"
+#include "model/model.h"
 #include "run/simulation_build.h"
 #include "state/simulation.h"
 #include "studies/run/worker.h"

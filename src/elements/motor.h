@@ -7,7 +7,8 @@
 
 #include "launchdyn/status.h"
 #include "math/vectors/mat3.h"
-#include "model/blocks/rocket.h"
+
+struct ld_rocket;
 
 // Mass data of the rocket at one instant; rates for the energy balance.
 typedef struct rocket_mass {
@@ -31,7 +32,7 @@ typedef struct motor {
     rocket_mass *at;         // [corner_count] likewise, where a table says it; else NULL. Owned
 } motor;
 
-ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error);
+ld_status motor_build(motor *self, const struct ld_rocket *rocket, ld_error *error);
 void motor_free(motor *self);
 
 // Pieces: -1 before ignition or the first corner, k between corners k and k + 1, corner_count - 1

@@ -8,6 +8,7 @@
 #include "elements/tube.h"
 #include "math/sine_cosine.h"
 #include "math/vectors/rotation_vector.h"
+#include "model/blocks/motor.h"
 
 // Sines and cosines of the rocket's angles in the tube.
 typedef struct rocket_turns {

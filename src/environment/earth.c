@@ -3,7 +3,8 @@
 
 #include "environment/earth_real.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/blocks/environment.h"
+#include "model/parts.h"
 
 static double or_default(double value, double otherwise)
 {
@@ -33,11 +34,11 @@ m3 earth_local_axes(double latitude, double longitude)
 
 void earth_build(earth *self, const ld_model *model)
 {
-    const ld_environment *environment = &model->environment;
+    const ld_environment *environment = model_environment(model);
     const ld_site *site = &environment->site;
     double s = sin(site->azimuth), c = cos(site->azimuth);
     *self = (earth){.flat = environment->earth.kind == LD_EARTH_FLAT,
-                    .gravity = model->gravity,
+                    .gravity = model_gravity(model),
                     .altitude = site->altitude,
                     .A_EI = m3_identity()};
     // x of I points to cos north + sin east, z to -sin north + cos east

@@ -6,7 +6,9 @@
 #include "figures/density_file.h"
 #include "launchdyn/response_view.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/blocks/base.h"
+#include "model/blocks/road.h"
+#include "model/parts.h"
 #include "quantities/study_results.h"
 #include "results/columns.h"
 #include "run/measures.h"
@@ -447,7 +449,7 @@ ld_status ld_response_view_create(const ld_model *model, const ld_response_wish 
     ld_response_view *self = calloc(1, sizeof *self);
     if (!self)
         return no_memory(error);
-    double own = model_has_vehicle(model) ? model->base.vehicle.speed : 0;
+    double own = model_has_vehicle(model) ? model_base(model)->vehicle.speed : 0;
     self->model = model;
     self->kind = wish->loop      ? LOOP
                  : wish->exit    ? EXIT
@@ -525,7 +527,7 @@ static void value_unit(const ld_response_view *view, const char *unit, char text
 static int describe_road(const ld_response_view *view, const char *what, char *text, size_t size)
 {
     static const char *const tracks[] = {"same", "independent", "coherent"};
-    const ld_road *road = &view->model->base.vehicle.road;
+    const ld_road *road = &model_base(view->model)->vehicle.road;
     return road->iso_class == LD_ROAD_SMOOTH
                ? snprintf(text, size, "%s the sines of the road", what)
                : snprintf(text, size, "%s a road of class %c, tracks %s", what,
@@ -689,7 +691,7 @@ static void print_loop(const ld_response_view *view, FILE *stream)
 void ld_response_view_print(const ld_response_view *view, FILE *stream)
 {
     char text[NAME];
-    const ld_road *road = &view->model->base.vehicle.road;
+    const ld_road *road = &model_base(view->model)->vehicle.road;
     describe(view, text, sizeof text);
     fprintf(stream, "%s; linear about the equilibrium, %s\n", text,
             view->rub ? "friction of the hinges linearised for the motion on the road"

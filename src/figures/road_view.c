@@ -9,7 +9,8 @@
 #include "launchdyn/environment.h"
 #include "math/curves/spectrum.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/blocks/base.h"
+#include "model/parts.h"
 #include "results/columns.h"
 
 enum { MOST_PLACES = 10000000, MOST_BANDS = 200, CLASSES = 8 };
@@ -144,7 +145,7 @@ ld_status ld_road_view_create(const ld_model *model, ld_stretch stretch, ld_road
     ld_road_view *created = calloc(1, sizeof *created);
     if (!created)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a road");
-    created->model = &model->base.vehicle.road;
+    created->model = &model_base(model)->vehicle.road;
     ld_status status = set_stretch(created, stretch, error);
     if (!status)
         status = fill(created, error);

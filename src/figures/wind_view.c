@@ -9,7 +9,7 @@
 #include "launchdyn/environment.h"
 #include "math/curves/spectrum.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "results/columns.h"
 
 enum { LEVELS = 201, INSTANTS = 1001, MOST_PLACES = 1000000, MOST_BANDS = 100, AXES = 3 };
@@ -185,7 +185,7 @@ static ld_status fill(ld_wind_view *view, ld_error *error)
 ld_status ld_wind_view_create(const ld_model *model, ld_wind_section section, ld_wind_view **view,
                               ld_error *error)
 {
-    if (!model->environment.wind.present)
+    if (!model_environment(model)->wind.present)
         return ld_fail(error, LD_ERR_INPUT, "there is no wind in the scenario");
     if (!(section.height >= 0 && section.top > 0 && section.rocket >= 1))
         return ld_fail(
@@ -194,7 +194,7 @@ ld_status ld_wind_view_create(const ld_model *model, ld_wind_section section, ld
     ld_wind_view *created = calloc(1, sizeof *created);
     if (!created)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a wind");
-    created->model = &model->environment.wind;
+    created->model = &model_environment(model)->wind;
     created->section = section;
     ld_status status = fill(created, error);
     if (status)

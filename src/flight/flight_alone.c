@@ -6,7 +6,8 @@
 
 #include "base/cpu_time.h"
 #include "flight/flight_history.h"
-#include "model/model.h"
+#include "model/blocks/flight.h"
+#include "model/parts.h"
 #include "quantities/summary_quantities.h"
 
 typedef struct alone_run {
@@ -37,17 +38,19 @@ ld_status flight_alone_create(ld_simulation *self, ld_error *error)
 static free_flight flight_of(const ld_simulation *self, double state[FLIGHT_STATES])
 {
     const ld_model *model = self->model;
-    double ignition = model->flight.ignition;
+    const ld_flight *start = model_flight(model);
+    const ld_run_settings *run = model_run(model);
+    double ignition = start->ignition;
     flight_phase phase = free_flight_phase(&self->flight, ignition, 0);
     flight_pose pose;
-    flight_start(&self->flight, &phase, &model->flight, state);
+    flight_start(&self->flight, &phase, start, state);
     flight_leave(&self->flight, &phase, 0, state, &pose);
     return (free_flight){
         .system = &self->flight,
         .model = model,
         .measure = self->measure,
         .t_ignition = ignition,
-        .t_end = model->run.end == LD_END_TIME ? ignition + model->run.end_time : INFINITY,
+        .t_end = run->end == LD_END_TIME ? ignition + run->end_time : INFINITY,
         .launch_x = pose.r_O1.x,
         .launch_z = pose.r_O1.z,
     };

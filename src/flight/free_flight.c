@@ -5,7 +5,7 @@
 #include "flight/flight_history.h"
 #include "integration/step_limit.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/simulation.h"
 
 static void slopes(const double *t, const double *y, double *y_dot, void *self)
@@ -19,7 +19,7 @@ static void slopes(const double *t, const double *y, double *y_dot, void *self)
 // where a double holds no more than nanometres.
 static void set_tolerances(flight_run *run)
 {
-    double tolerance = run->job->model->run.flight_tolerance;
+    double tolerance = model_run(run->job->model)->flight_tolerance;
     bool flat = run->job->system->earth.flat;
     dormand_prince *steps = &run->steps;
     *steps = (dormand_prince){.f = slopes, .self = run, .count = run->job->system->states};
@@ -64,8 +64,8 @@ static ld_status write_rows(flight_run *run, double t)
         ld_status status = write_row(run, run->next_output, between);
         if (status)
             return status;
-        run->next_output = run->output_from +
-                           (double)++run->output_index * run->job->model->run.output_step_flight;
+        run->next_output = run->output_from + (double)++run->output_index *
+                                                  model_run(run->job->model)->output_step_flight;
     }
     return LD_OK;
 }
@@ -225,11 +225,11 @@ static ld_status check_table(flight_run *run)
 
 static ld_status check_limit(flight_run *run, double t)
 {
-    double limit = run->job->model->run.flight_limit;
+    double limit = model_run(run->job->model)->flight_limit;
     if (isfinite(run->job->t_end) || t < run->t_limit)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_LAUNCH,
-                   run->job->model->run.end == LD_END_APOGEE
+                   model_run(run->job->model)->end == LD_END_APOGEE
                        ? "the rocket has not reached its apogee within the flight limit of %.6g s"
                        : "the rocket has not landed within the flight limit of %.6g s",
                    limit);
@@ -362,7 +362,7 @@ static bool has_come(void *self, measure_instant instant)
 static measuring measuring_of(flight_run *run)
 {
     return (measuring){
-        .count = run->job->model->measure_count,
+        .count = model_measure_count(run->job->model),
         .plan = run->job->measure,
         .flight = true,
         .window = run->window,
@@ -527,7 +527,7 @@ static bool cut_step(flight_run *run, double *apex)
 {
     const ld_parachute *parachute = run->job->system->rocket->parachute;
     double t[LD_MAX_PARACHUTES], end = run->steps.step.t;
-    bool to_apex = run->job->model->run.end == LD_END_APOGEE && !isnan(*apex);
+    bool to_apex = model_run(run->job->model)->end == LD_END_APOGEE && !isnan(*apex);
     double cut = to_apex ? *apex : end;
     for (int i = 0; i < parachutes_of(run); i++) {
         t[i] = trigger_in_step(run, i, *apex);
@@ -699,7 +699,8 @@ static ld_status check_steps(const flight_run *run)
 {
     const dormand_prince *steps = &run->steps;
     double spent = steps->step.t - run->job->t_start;
-    double least = least_step(run->job->model->run.flight_tolerance, 1e-7, 5e-5, steps->step.steps);
+    double least =
+        least_step(model_run(run->job->model)->flight_tolerance, 1e-7, 5e-5, steps->step.steps);
     if (steps->step.steps < 1000 || spent >= least * steps->step.steps)
         return LD_OK;
     return ld_fail(run->error, LD_ERR_NUMERIC,
@@ -768,7 +769,7 @@ static ld_status begin(flight_run *run, const double *y)
     pass_parachutes(run, job->t_start, start);
     dormand_prince_start(&run->steps, job->t_start, start);
     double height = flight_height(job->system, y);
-    run->t_limit = job->t_start + job->model->run.flight_limit;
+    run->t_limit = job->t_start + model_run(job->model)->flight_limit;
     watch(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
         return ld_fail(
@@ -776,7 +777,7 @@ static ld_status begin(flight_run *run, const double *y)
             "environment.ground: the flight begins below the ground: the mass centre is at "
             "%s %.6g m, the ground at %.6g m",
             job->system->earth.flat ? "y =" : "an altitude of", height, job->system->ground);
-    measuring_begin(run->window, job->model->measure_count);
+    measuring_begin(run->window, model_measure_count(job->model));
     measure_now(run, job->t_start, y);
     set_next(run);
     ld_status status = check_table(run);
@@ -839,7 +840,7 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .error = error,
                         .output_from = job->t_start,
                         .output_index = 1,
-                        .next_output = job->t_start + job->model->run.output_step_flight,
+                        .next_output = job->t_start + model_run(job->model)->output_step_flight,
                         .next_progress = job->t_start,
                         .apogee = -INFINITY,
                         .extremes = {.along = 1},

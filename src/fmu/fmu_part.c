@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/text_file.h"
-#include "model/model.h"
+#include "model/parts.h"
 
 enum { PATH_SIZE = 4096, PART_BYTES = 4096 };
 

@@ -12,7 +12,7 @@
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
 #include "model/fields/digest.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 
@@ -278,7 +278,7 @@ static void add_results(gathering *self, const ld_summary *started)
         return;
     }
     *summary = *started;
-    for (; summary->rocket_count < self->model->firing_count; summary->rocket_count++)
+    for (; summary->rocket_count < model_firing_count(self->model); summary->rocket_count++)
         rocket_clear(&summary->rocket[summary->rocket_count], true);
     begin_group(self);
     ld_summary_each(summary, take_result, self);

@@ -13,7 +13,7 @@
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
-#include "model/model.h"
+#include "model/parts.h"
 
 enum { PATH_SIZE = 4096, NAME_SIZE = 512, FMU_BYTES = 64 << 20, PARTS = 2 };
 
@@ -77,7 +77,8 @@ static void write_structure(FILE *stream, const system_structure *self)
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
           "<ssd:SystemStructureDescription version=\"1.0\" name=\"",
           stream);
-    fmu_write_text(stream, self->model->title ? self->model->title : "launch");
+    const char *title = model_title(self->model);
+    fmu_write_text(stream, title ? title : "launch");
     fprintf(stream,
             "\" generationTool=\"launchdyn %s\"\n"
             "    xmlns:ssc=\"http://ssp-standard.org/SSP1/SystemStructureCommon\"\n"

@@ -12,14 +12,15 @@
 #include "launch/launch_measures.h"
 #include "launch/launch_rows.h"
 #include "launch/launch_summary.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "quantities/summary_quantities.h"
 #include "state/equilibrium.h"
 
 // Rocket i of the firing comes next: its lock closed, its motor not yet lit.
 static void set_up_rocket(ld_run *run, int i, double t)
 {
-    const ld_firing *firing = &run->launch.model->firing[i];
+    const ld_firing *firing = model_firing(run->launch.model, i);
     launch_state_select(&run->launch, i);
     run->greatest_lock_force = 0;
     for (int k = 0; k < HINGES; k++)
@@ -90,7 +91,8 @@ static ld_status change_tube(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
     int next = self->current + 1;
-    if (next == self->model->firing_count || self->phase.rocket || t < launch_change_instant(self))
+    if (next == model_firing_count(self->model) || self->phase.rocket ||
+        t < launch_change_instant(self))
         return LD_OK;
     double y[LD_MAX_STATES];
     ld_energy before, after;
@@ -237,9 +239,10 @@ ld_status launch_begin(ld_run *run)
     launch_state *self = &run->launch;
     double y[LD_MAX_STATES];
     const ld_model *model = self->model;
-    double last = model->firing[model->firing_count - 1].at;
+    const ld_run_settings *settings = model_run(model);
+    double last = model_firing(model, model_firing_count(model) - 1)->at;
     run->t_start = simulation_start_time(model);
-    run->t_end = model->run.end == LD_END_TIME ? last + model->run.end_time : INFINITY;
+    run->t_end = settings->end == LD_END_TIME ? last + settings->end_time : INFINITY;
     run->t = run->t_start;
     run->t_input = INFINITY;
     run->last_row = run->told_at = NAN;

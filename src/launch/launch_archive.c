@@ -4,7 +4,8 @@
 #include <limits.h>
 
 #include "launch/launch_flights.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "quantities/summary_quantities.h"
 
 static void archive_phase(archive *bytes, launching_phase *phase)
@@ -27,7 +28,7 @@ static void archive_phase(archive *bytes, launching_phase *phase)
 static void archive_launch(archive *bytes, launch_state *self)
 {
     int current = self->current;
-    archive_int(bytes, &current, 0, self->model->firing_count - 1);
+    archive_int(bytes, &current, 0, model_firing_count(self->model) - 1);
     if (bytes->loading) {
         launcher_select(&self->launcher, current);
         launch_state_select(self, current);
@@ -36,9 +37,8 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_double(bytes, &self->t_ignition);
     archive_int(bytes, &self->piece, -1, (int)self->motor->corner_count - 1);
     if (model_has_pressure(self->model)) {
-        int most = self->model->tubes.pressure.form == LD_PRESSURE_OVER_TIME
-                       ? (int)self->model->tubes.pressure.over_time.rows
-                       : 1;
+        const ld_pressure *pressure = &model_tubes(self->model)->pressure;
+        int most = pressure->form == LD_PRESSURE_OVER_TIME ? (int)pressure->over_time.rows : 1;
         archive_int(bytes, &self->pressure_piece, 0, most);
     }
     archive_bool(bytes, &self->held_down);
@@ -59,7 +59,7 @@ static void archive_output(archive *bytes, ld_run *run)
                          &run->last_row,     &run->next_progress, &run->greatest_lock_force};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         archive_double(bytes, numbers[i]);
-    const ld_run_settings *steps = &run->launch.model->run;
+    const ld_run_settings *steps = model_run(run->launch.model);
     for (int i = 0; i < HINGES; i++) {
         hinge_watch *watch = &run->watch[i];
         archive_double(bytes, &watch->since);
@@ -77,12 +77,12 @@ static void archive_summary(archive *bytes, ld_run *run)
 {
     ld_summary *summary = &run->summary;
     const quantity_things things = quantity_things_of(run->launch.model);
-    archive_int(bytes, &summary->rocket_count, 0, run->launch.model->firing_count);
+    archive_int(bytes, &summary->rocket_count, 0, model_firing_count(run->launch.model));
     for (int i = 0; i < summary->rocket_count; i++) {
         ld_rocket_summary *rocket = &summary->rocket[i];
         if (bytes->loading)
             rocket_clear(rocket, true);
-        rocket->tube = run->launch.model->firing[i].tube;
+        rocket->tube = model_firing(run->launch.model, i)->tube;
         archive_bool(bytes, &rocket->flown);
         archive_bool(bytes, &rocket->final.earth);
         quantity_archive(&rocket_quantities, &things, rocket, bytes);
@@ -121,11 +121,11 @@ static void archive_jets(archive *bytes, ld_run *run)
 // Measures as far as they have been taken; nothing where there are none.
 static void archive_measures(archive *bytes, ld_run *run)
 {
-    if (run->launch.model->measure_count == 0)
+    if (model_measure_count(run->launch.model) == 0)
         return;
     archive_double(bytes, &run->t_rocket);
     archive_double(bytes, &run->t_measured);
-    for (int i = 0; i < run->launch.model->measure_count; i++) {
+    for (int i = 0; i < model_measure_count(run->launch.model); i++) {
         measure_window *measure = &run->measure[i];
         archive_bool(bytes, &measure->open);
         archive_bool(bytes, &measure->done);

@@ -8,7 +8,8 @@
 #include "launch/launch_rows.h"
 #include "launch/launch_run.h"
 #include "launch/launch_summary.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 
@@ -44,7 +45,7 @@ static void let_rocket_go(ld_run *run, double t, const double *y)
     self->phase.rocket = false;
     double without = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
     run->energy_start -= with - without;
-    if (self->current + 1 < self->model->firing_count)
+    if (self->current + 1 < model_firing_count(self->model))
         launch_restart_output(run, t);
 }
 
@@ -144,9 +145,9 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
             launch_tell(run, direction > 0 ? LD_EVENT_LAND : LD_EVENT_LIFT, t, j);
         changed |= direction > 0;
     }
-    bool last = self->current + 1 == self->model->firing_count;
+    bool last = self->current + 1 == model_firing_count(self->model);
     if (self->phase.passed[0] && self->phase.rocket &&
-        !(last && self->model->run.end != LD_END_TIME)) {
+        !(last && model_run(self->model)->end != LD_END_TIME)) {
         let_rocket_go(run, t, y);
         changed = true;
     }
@@ -171,7 +172,7 @@ void launch_let_go_at_once(ld_run *run, double t, const double *y)
 // When the next tube takes the place of the one that is empty now.
 double launch_change_instant(const launch_state *self)
 {
-    return self->model->firing[self->current + 1].at - 0.2;
+    return model_firing(self->model, self->current + 1)->at - 0.2;
 }
 
 // The next instant at which the step must end: ignition, a corner of the thrust, the end; `none`
@@ -190,8 +191,8 @@ static double next_stop(const ld_run *run, double t, double none)
     stop = fmin(stop, jets_next_corner(&self->jets));
     if (t < self->t_ignition)
         return fmin(stop, isinf(self->t_ignition) ? none : self->t_ignition);
-    if (self->current + 1 < self->model->firing_count)
-        stop = fmin(stop, self->phase.rocket ? self->model->firing[self->current + 1].at
+    if (self->current + 1 < model_firing_count(self->model))
+        stop = fmin(stop, self->phase.rocket ? model_firing(self->model, self->current + 1)->at
                                              : launch_change_instant(self));
     if (self->held_down)
         stop = fmin(stop, self->t_ignition + self->rocket->lock.hold_down);
@@ -199,8 +200,9 @@ static double next_stop(const ld_run *run, double t, double none)
     if (next < (int)self->motor->corner_count)
         stop = fmin(stop, self->t_ignition + self->motor->t[next]);
     if (model_has_pressure(self->model))
-        stop = fmin(stop, self->t_ignition + pressure_next_corner(&self->model->tubes.pressure,
-                                                                  self->pressure_piece));
+        stop =
+            fmin(stop, self->t_ignition + pressure_next_corner(&model_tubes(self->model)->pressure,
+                                                               self->pressure_piece));
     return isinf(stop) ? none : stop;
 }
 
@@ -218,7 +220,7 @@ double launch_next_instant(const ld_run *run, double t)
 // The piece of the pressure that t has reached.
 static int pressure_piece_at(const launch_state *self, double t)
 {
-    const ld_pressure *pressure = &self->model->tubes.pressure;
+    const ld_pressure *pressure = &model_tubes(self->model)->pressure;
     int piece = self->pressure_piece;
     while (model_has_pressure(self->model) && t >= self->t_ignition &&
            t >= self->t_ignition + pressure_next_corner(pressure, piece))

@@ -15,7 +15,7 @@
 
 #include "math/functions.h"
 #include "math/matrices/dense.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "state/linearise.h"
@@ -127,8 +127,9 @@ void exit_error_begin_step(exit_error *self, ld_run *run)
     launcher_input input;
     simulation_input(launch, self->t, twin, &input);
     const launcher_output *out = simulation_output(launch, self->t, self->y);
-    if (!out || launcher_evaluate_tube(launcher, launch->model->run.formulation, &input.launching,
-                                       &launch->phase, twin, &self->out.launching)) {
+    if (!out ||
+        launcher_evaluate_tube(launcher, model_run(launch->model)->formulation, &input.launching,
+                               &launch->phase, twin, &self->out.launching)) {
         lose(self);
         return;
     }
@@ -231,7 +232,7 @@ void exit_error_record(const exit_error *self, ld_run *run, double t, const doub
     ld_tip_off of_twin = tip_off_at(run, &input, twin), *own = &rocket->tip_off;
     double rates = hypot(own->pitch_rate, own->yaw_rate);
     double apart = hypot(of_twin.pitch_rate - own->pitch_rate, of_twin.yaw_rate - own->yaw_rate);
-    double told = TOLD * fmax(apart, launch->model->run.tolerance * rates);
+    double told = TOLD * fmax(apart, model_run(launch->model)->tolerance * rates);
     if (self->lost || !isfinite(told))
         told = fmax(rates, LEAST_RATES);
     rocket->exit_error.rates = told;

@@ -6,7 +6,8 @@
 #include "base/cpu_time.h"
 #include "flight/flight_history.h"
 #include "flight/free_flight.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 
 static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
                                   const double *state, ld_error *error)
@@ -61,7 +62,8 @@ ld_status launch_add_jet(ld_run *run, const jet_place *mouth, ld_error *error)
     int i = self->jets.count;
     const flight_system *flight = simulation_flight(self->system, i);
     flight_phase phase = enter_flight(run, flight, i, state);
-    return jets_add(&self->jets, flight, &phase, self->model->firing[i].tube, mouth, state, error);
+    return jets_add(&self->jets, flight, &phase, model_firing(self->model, i)->tube, mouth, state,
+                    error);
 }
 
 ld_status launch_begin_jet(ld_run *run, double t, const double *y)
@@ -70,7 +72,7 @@ ld_status launch_begin_jet(ld_run *run, double t, const double *y)
     launcher_input input;
     launcher_place(&self->launcher, t, y, &input);
     const base_frame *tube = &input.launching.base;
-    v3 arm = m3_apply(tube->A, v3_make(self->model->tubes.length, 0, 0));
+    v3 arm = m3_apply(tube->A, v3_make(model_tubes(self->model)->length, 0, 0));
     jet_place mouth = {t, v3_add(tube->r, arm), v3_add(tube->v, v3_cross(tube->w, arm))};
     return launch_add_jet(run, &mouth, &run->error);
 }
@@ -84,7 +86,8 @@ static ld_status fly(ld_run *run, int i)
     bool rows = run->options.sink && run->options.sink->flight;
     enter_flight(run, &run->flight, i, state);
     double height = flight_center(&run->flight, t, state).r.y;
-    if (model->run.end == LD_END_TIME && run->flight.has_ground && height < run->flight.ground) {
+    if (model_run(model)->end == LD_END_TIME && run->flight.has_ground &&
+        height < run->flight.ground) {
         summary_note(&run->summary,
                      "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
                      "mass centre at y = %.4g m",
@@ -114,7 +117,7 @@ static ld_status fly(ld_run *run, int i)
 ld_status launch_fly_all(ld_run *run)
 {
     ld_status status = LD_OK;
-    if (run->launch.model->run.end == LD_END_TIP)
+    if (model_run(run->launch.model)->end == LD_END_TIP)
         return LD_OK;
     for (int i = 0; i < run->summary.rocket_count && !status; i++) {
         if (isnan(run->summary.rocket[i].t_rear))

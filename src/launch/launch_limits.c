@@ -3,7 +3,8 @@
 
 #include "integration/step_limit.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 
@@ -43,7 +44,7 @@ static ld_status check_progress(ld_run *run, double t, const double *y)
             "the rocket is %.4g m behind the breech at t = %.6g s: a contact of %.6g N/m "
             "does not hold it",
             self->phase.breech - s, t, rocket->contact.stiffness);
-    if (since < self->model->run.stuck_time)
+    if (since < model_run(self->model)->stuck_time)
         return LD_OK;
     if (self->phase.locked)
         return ld_fail(&run->error, LD_ERR_LAUNCH,
@@ -62,8 +63,8 @@ static ld_status check_next(ld_run *run, double t)
 {
     const launch_state *self = &run->launch;
     int next = self->current + 1;
-    if (next == self->model->firing_count || !self->phase.rocket ||
-        t < self->model->firing[next].at)
+    if (next == model_firing_count(self->model) || !self->phase.rocket ||
+        t < model_firing(self->model, next)->at)
         return LD_OK;
     return ld_fail(&run->error, LD_ERR_LAUNCH,
                    "firing %d: at its ignition, t = %.6g s, the previous rocket is still in its "
@@ -96,7 +97,7 @@ static ld_status check_steps(ld_run *run, double t)
                        (long long)most, t);
     int64_t steps = propagator_most_steps(run->propagator);
     double spent = t - run->t_start;
-    const ld_run_settings *settings = &run->launch.model->run;
+    const ld_run_settings *settings = model_run(run->launch.model);
     double least = least_step(settings->tolerance, 1e-5, settings->max_step / 2, steps);
     if (spent < 1e-3 || spent >= least * (double)steps)
         return LD_OK;

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/history.h"
 
 _Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS,
@@ -12,7 +12,7 @@ _Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS,
 void launch_begin_measures(ld_run *run, double t)
 {
     run->t_rocket = t;
-    measuring_begin(run->measure, run->launch.model->measure_count);
+    measuring_begin(run->measure, model_measure_count(run->launch.model));
 }
 
 static void find_row(void *self, double t, double *row)
@@ -50,7 +50,7 @@ static measuring measuring_of(ld_run *run)
 {
     const launch_state *self = &run->launch;
     return (measuring){
-        .count = self->model->measure_count,
+        .count = model_measure_count(self->model),
         .plan = self->system->measure,
         .window = run->measure,
         .result = run->summary.rocket[self->current].measure,
@@ -63,7 +63,7 @@ static measuring measuring_of(ld_run *run)
 // In how many pieces a step is taken: a long one of the lead-in in shorter ones.
 static int pieces_of(const ld_run *run, double step)
 {
-    const double longest = fmax(run->launch.model->run.max_step, 0.5e-3);
+    const double longest = fmax(model_run(run->launch.model)->max_step, 0.5e-3);
     return (int)fmax(1, ceil(step / longest - 1e-6));
 }
 

@@ -2,7 +2,7 @@
 #include "launch/launch_rows.h"
 
 #include "base/cpu_time.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/geometry.h"
 #include "state/history.h"
 
@@ -11,9 +11,9 @@
 static double output_step(const ld_run *run, double t)
 {
     const launch_state *self = &run->launch;
-    bool between = !self->phase.rocket && self->current + 1 < self->model->firing_count;
-    return t < self->t_ignition || between ? self->model->run.output_step_lead_in
-                                           : self->model->run.output_step_tube;
+    bool between = !self->phase.rocket && self->current + 1 < model_firing_count(self->model);
+    return t < self->t_ignition || between ? model_run(self->model)->output_step_lead_in
+                                           : model_run(self->model)->output_step_tube;
 }
 
 ld_status launch_open_output(ld_run *run)

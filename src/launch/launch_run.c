@@ -2,7 +2,7 @@
 
 #include <assert.h>
 
-#include "model/model.h"
+#include "model/parts.h"
 
 const double *run_present_state(ld_run *run)
 {
@@ -17,9 +17,9 @@ bool launch_is_finished(const ld_run *run)
     const launch_state *self = &run->launch;
     if (run->ahead)
         return false;
-    if (self->current + 1 < self->model->firing_count)
+    if (self->current + 1 < model_firing_count(self->model))
         return false;
-    if (self->model->run.end == LD_END_TIME)
+    if (model_run(self->model)->end == LD_END_TIME)
         return propagator_time(run->propagator) >= run->t_end;
     return self->phase.passed[0];
 }

@@ -7,7 +7,7 @@
 #include "base/printed.h"
 #include "launch/launch_exit_error.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/energy.h"
 #include "state/evaluation.h"
 #include "state/exit_figures.h"
@@ -134,7 +134,7 @@ static void watch_station(const guide_load *load, double since, ld_station_summa
 void launch_watch_loads(ld_run *run, double t, const double *y)
 {
     const launch_state *self = &run->launch;
-    const ld_tubes *tubes = &self->model->tubes;
+    const ld_tubes *tubes = model_tubes(self->model);
     launcher_input input;
     launcher_output out;
     launching_loads loads;
@@ -202,7 +202,7 @@ void launch_energy_at(const launch_state *self, double t, const double *y, doubl
 
 static void note_formulation(const launch_state *self, ld_summary *summary)
 {
-    if (self->model->run.formulation != LD_FORMULATION_OVERALL)
+    if (model_run(self->model)->formulation != LD_FORMULATION_OVERALL)
         return;
     summary_note(summary, "overall form: condition of the tube's transfer matrix up to %.2g",
                  self->worst_condition);
@@ -236,13 +236,13 @@ static void note_measures(ld_run *run)
 {
     const ld_model *model = run->launch.model;
     for (int i = 0; i < run->summary.rocket_count && run->summary.complete; i++)
-        for (int k = 0; k < model->measure_count; k++)
+        for (int k = 0; k < model_measure_count(model); k++)
             if (isnan(run->summary.rocket[i].measure[k])) {
                 summary_note(&run->summary,
                              "measure.%s of tube %d has no value: its window did not occur, or %s "
                              "is missing in a part of it",
-                             model->measure[k].name, run->summary.rocket[i].tube,
-                             model->measure[k].of);
+                             model_measure(model, k)->name, run->summary.rocket[i].tube,
+                             model_measure(model, k)->of);
                 return;
             }
 }

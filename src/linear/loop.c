@@ -5,6 +5,10 @@
 // one. How the chassis turns the platform is what it does where forces on it let it do nothing else
 // than turn about the hinge.
 #include "launchdyn/loop.h"
+#include "model/blocks/base.h"
+#include "model/blocks/platform.h"
+#include "model/blocks/stabiliser.h"
+#include "model/parts.h"
 
 #include <complex.h>
 #include <stdlib.h>
@@ -15,7 +19,6 @@
 #include "math/functions.h"
 #include "math/matrices/dense.h"
 #include "math/vectors/mat3.h"
-#include "model/model.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
 static const double LOWEST = 0.05, HIGHEST = 500; // [Hz] of margins
@@ -233,7 +236,8 @@ static ld_status find_margins(ld_loop *self, ld_error *error)
 static ld_status find_hinge(ld_loop *self, const ld_model *model, const char *name, int *hinge,
                             ld_error *error)
 {
-    const ld_turret *turret[] = {&model->platform.azimuth, &model->platform.elevation};
+    const ld_turret *turret[] = {&model_platform(model)->azimuth,
+                                 &model_platform(model)->elevation};
     name_suggestion best = suggestion_begin(name);
     for (int i = 0; i < 2; i++)
         suggestion_offer(&best, hinges[i]);
@@ -299,12 +303,12 @@ static ld_status build(ld_loop *self, const ld_model *model, const char *name, l
     ld_status status = find_hinge(self, model, name, &hinge, error);
     if (status)
         return status;
-    self->speed = model->base.vehicle.speed;
+    self->speed = model_base(model)->vehicle.speed;
     const ld_stabiliser *given = self->stabiliser;
     self->late = given->sample > 0 ? given->delay + 0.5 * given->sample : 0;
     status = response_create(model, NAN, NAN, false, &self->response, error);
     if (!status)
-        status = choose_columns(self, &model->platform, hinge, error);
+        status = choose_columns(self, model_platform(model), hinge, error);
     if (!status)
         status = find_margins(self, error);
     return status ? status : check_lateness(self, name, error);

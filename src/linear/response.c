@@ -2,6 +2,7 @@
 // equations.
 #include "launchdyn/response.h"
 #include "model/model.h"
+#include "model/parts.h"
 
 #include <assert.h>
 #include <stdio.h>

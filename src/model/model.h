@@ -1,4 +1,6 @@
-/// The model: what a scenario says, validated, as plain data in SI units and radians.
+/// The model as a whole, for those who make, fill, copy or check one: what a scenario says,
+/// validated, as plain data in SI units and radians. Who reads a part of it includes model/parts.h
+/// and the header of that block in model/blocks/: a key of another block does not recompile it.
 ///
 /// A model is constant while it runs. It is read from a scenario, or filled by hand in tests,
 /// starting from model_init(). To users it is a handle (launchdyn/model.h). Counts say how many
@@ -53,88 +55,6 @@ struct ld_model {
     int point;   ///< of the sweep that its values are those of; 0: nominal
     int sample;  ///< whose drawn numbers it has, of its point; 0: nominal
 };
-
-/// False: a flight alone.
-static inline bool model_has_launcher(const ld_model *model)
-{
-    return model->base.kind != LD_BASE_NONE;
-}
-
-/// Whether the base is told where it is; makes it one that is.
-static inline bool model_base_is_told(const ld_model *model)
-{
-    return model->base.kind == LD_BASE_EXTERNAL;
-}
-static inline void model_tell_base(ld_model *model)
-{
-    model->base.kind = LD_BASE_EXTERNAL;
-}
-
-/// Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
-static inline bool model_has_vehicle(const ld_model *model)
-{
-    return model->base.kind == LD_BASE_VEHICLE;
-}
-
-/// Whether the rocket's shoes slide on surfaces, not in a bore.
-static inline bool model_has_surfaces(const ld_model *model)
-{
-    return model_has_launcher(model) && model->tubes.guide.present;
-}
-
-/// What guides the rocket, in a word.
-static inline const char *model_guide_word(const ld_model *model)
-{
-    const ld_guide *guide = &model->tubes.guide;
-    bool tower = guide->form == LD_GUIDE_TOWER;
-    return !model_has_surfaces(model) ? "tube" : tower ? "tower" : "rail";
-}
-
-/// Whether the rocket's knob follows a slot.
-static inline bool model_has_slot(const ld_model *model)
-{
-    return model_has_launcher(model) && model->tubes.slot.kind == LD_SLOT_HELIX;
-}
-
-/// Whether the air acts on what has come out of the tube.
-static inline bool model_has_crossflow(const ld_model *model)
-{
-    const ld_aerodynamics *given = &model->rocket.aerodynamics;
-    return model_has_launcher(model) && given->present && given->emerged.present;
-}
-
-/// Whether the air acts on the whole rocket on its guide: that is open, not a bore.
-static inline bool model_has_open_air(const ld_model *model)
-{
-    return model_has_surfaces(model) && model->rocket.aerodynamics.present;
-}
-
-/// Whether the rocket feels the air before its release.
-static inline bool model_feels_air(const ld_model *model)
-{
-    return model_has_crossflow(model) || model_has_open_air(model);
-}
-
-/// Whether the jets of rockets that have left act on the platform.
-static inline bool model_has_jet(const ld_model *model)
-{
-    return model_has_vehicle(model) && model->platform.jet.rows > 0;
-}
-
-/// Whether a pressure drives the rocket out of its tube.
-static inline bool model_has_pressure(const ld_model *model)
-{
-    return model_has_launcher(model) && model->tubes.pressure.present;
-}
-
-/// How many supports are slides on which the tube recoils.
-static inline int model_slide_count(const ld_model *model)
-{
-    int count = 0;
-    for (int i = 0; i < model->tubes.support_count; i++)
-        count += model->tubes.support[i].recoil.present;
-    return model_has_launcher(model) ? count : 0;
-}
 
 /// Fills `model` with the defaults of the scenario language (no tables, no title); numbers without
 /// a default become NaN.

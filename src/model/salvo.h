@@ -2,12 +2,13 @@
 #ifndef LD_MODEL_SALVO_H
 #define LD_MODEL_SALVO_H
 
-#include "model/model.h"
+#include <stdbool.h>
 
+#include "launchdyn/model.h"
+
+// Whether they differ.
+bool salvo_is_given(const ld_model *model);
 // That of firing i, in the order of firing.
-static inline const ld_rocket *salvo_rocket(const ld_model *model, int i)
-{
-    return model->salvo ? &model->salvo[i] : &model->rocket;
-}
+const struct ld_rocket *salvo_rocket(const ld_model *model, int i);
 
 #endif

@@ -5,17 +5,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/model.h"
+#include "model/blocks/base.h"
+#include "model/blocks/measure.h"
+#include "model/blocks/rocket.h"
+#include "model/blocks/tubes.h"
+#include "model/blocks/vehicle.h"
+#include "model/parts.h"
 
 quantity_things quantity_things_of(const ld_model *model)
 {
     static const char hinges[2][16] = {"azimuth", "elevation"};
     if (!model)
         return (quantity_things){0};
-    bool vehicle = model_has_vehicle(model);
+    bool on_vehicle = model_has_vehicle(model);
+    const ld_rocket *rocket = model_rocket(model);
+    const ld_tubes *tubes = model_tubes(model);
+    const ld_vehicle *vehicle = &model_base(model)->vehicle;
+    const ld_measure *measure = model_measure(model, 0);
     return (quantity_things){
         .count = {[EACH_RUN] = 1,
-                  [EACH_VEHICLE] = vehicle,
+                  [EACH_VEHICLE] = on_vehicle,
                   [EACH_SLOT] = model_has_slot(model),
                   [EACH_CROSSFLOW] = model_has_crossflow(model),
                   [EACH_OPEN_AIR] = model_has_open_air(model),
@@ -23,26 +32,26 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_PRESSURE] = model_has_pressure(model),
                   [EACH_SLIDE_WORK] = model_slide_count(model) > 0,
                   [EACH_SLIDE] = model_slide_count(model),
-                  [EACH_ADAPTOR] = model->rocket.adaptor_count,
-                  [EACH_SHOE] = model_has_surfaces(model) ? model->rocket.adaptor_count : 0,
-                  [EACH_HINGE] = vehicle ? 2 : 0,
-                  [EACH_WHEEL] = vehicle ? model->base.vehicle.wheel_count : 0,
-                  [EACH_MEASURE] = model->measure_count,
-                  [EACH_PARACHUTE] = model->rocket.parachute_count,
-                  [EACH_STATION] = model->tubes.station_count,
-                  [EACH_SUPPORT] = model->tubes.station_count ? model->tubes.support_count : 0},
-        .name = {[EACH_ADAPTOR] = model->rocket.adaptor[0].name,
-                 [EACH_SHOE] = model->rocket.adaptor[0].name,
+                  [EACH_ADAPTOR] = rocket->adaptor_count,
+                  [EACH_SHOE] = model_has_surfaces(model) ? rocket->adaptor_count : 0,
+                  [EACH_HINGE] = on_vehicle ? 2 : 0,
+                  [EACH_WHEEL] = on_vehicle ? vehicle->wheel_count : 0,
+                  [EACH_MEASURE] = model_measure_count(model),
+                  [EACH_PARACHUTE] = rocket->parachute_count,
+                  [EACH_STATION] = tubes->station_count,
+                  [EACH_SUPPORT] = tubes->station_count ? tubes->support_count : 0},
+        .name = {[EACH_ADAPTOR] = rocket->adaptor[0].name,
+                 [EACH_SHOE] = rocket->adaptor[0].name,
                  [EACH_HINGE] = hinges[0],
-                 [EACH_WHEEL] = model->base.vehicle.wheel[0].name,
-                 [EACH_MEASURE] = model->measure[0].name,
-                 [EACH_PARACHUTE] = model->rocket.parachute[0].name},
-        .stride = {[EACH_ADAPTOR] = sizeof model->rocket.adaptor[0],
-                   [EACH_SHOE] = sizeof model->rocket.adaptor[0],
+                 [EACH_WHEEL] = vehicle->wheel[0].name,
+                 [EACH_MEASURE] = measure->name,
+                 [EACH_PARACHUTE] = rocket->parachute[0].name},
+        .stride = {[EACH_ADAPTOR] = sizeof rocket->adaptor[0],
+                   [EACH_SHOE] = sizeof rocket->adaptor[0],
                    [EACH_HINGE] = sizeof hinges[0],
-                   [EACH_WHEEL] = sizeof model->base.vehicle.wheel[0],
-                   [EACH_MEASURE] = sizeof model->measure[0],
-                   [EACH_PARACHUTE] = sizeof model->rocket.parachute[0]},
+                   [EACH_WHEEL] = sizeof vehicle->wheel[0],
+                   [EACH_MEASURE] = sizeof *measure,
+                   [EACH_PARACHUTE] = sizeof rocket->parachute[0]},
         .launcher = model_has_launcher(model),
         .model = model,
     };

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/model.h"
+#include "model/parts.h"
 #include "report/report_origin.h"
 #include "results/json_text.h"
 #include "scenario/scenario.h"
@@ -30,7 +31,7 @@ static void write_line(FILE *json, bool *first, const char *name, const char *fo
 
 static ld_status write_plan(FILE *json, const ld_model *model)
 {
-    const ld_scatter *scatter = &model->scatter;
+    const ld_scatter *scatter = model_scatter(model);
     bool first = true;
     fputs("\"plan\":[", json);
     if (scatter->present && scatter->plan == LD_PLAN_LHS)
@@ -46,16 +47,16 @@ static ld_status write_plan(FILE *json, const ld_model *model)
             return LD_ERR_MEMORY;
         write_line(json, &first, "until half the 95 % interval is at most", "%s", text);
     }
-    for (int i = 0; i < model->sweep_count; i++)
-        write_line(json, &first, "swept", "%s, %d values", model->sweep[i].path,
-                   model->sweep[i].count);
+    for (int i = 0; i < model_sweep_count(model); i++)
+        write_line(json, &first, "swept", "%s, %d values", model_sweep(model, i)->path,
+                   model_sweep(model, i)->count);
     fputc(']', json);
     return LD_OK;
 }
 
 static ld_status write_factors(FILE *json, const ld_model *model)
 {
-    const ld_scatter *scatter = &model->scatter;
+    const ld_scatter *scatter = model_scatter(model);
     fputs(",\"factors\":[", json);
     for (int i = 0; i < scatter->factor_count; i++) {
         char text[512];

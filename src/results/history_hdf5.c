@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "launchdyn/version.h"
-#include "model/model.h"
+#include "model/blocks/rocket.h"
+#include "model/parts.h"
 #include "results/hdf5_support.h"
 #include "results/history.h"
 #include "results/origin.h"
@@ -267,10 +268,10 @@ ld_status history_hdf5_flight(history_hdf5 *history, int rocket, const ld_column
 static bool write_openings(hid_t group, const ld_model *model, const ld_rocket_summary *rocket)
 {
     bool fine = true;
-    int count = model && rocket->flown ? model->rocket.parachute_count : 0;
+    int count = model && rocket->flown ? model_rocket(model)->parachute_count : 0;
     for (int i = 0; i < count && fine; i++) {
         char name[LD_MAX_NAME + 24];
-        snprintf(name, sizeof name, "parachute.%s.t_open", model->rocket.parachute[i].name);
+        snprintf(name, sizeof name, "parachute.%s.t_open", model_rocket(model)->parachute[i].name);
         if (isfinite(rocket->parachute[i].t_open))
             fine = hdf5_write_number(group, name, rocket->parachute[i].t_open);
     }

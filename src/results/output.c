@@ -1,5 +1,5 @@
 #include "launchdyn/output.h"
-#include "model/model.h"
+#include "model/parts.h"
 
 #include <assert.h>
 #include <errno.h>
@@ -231,7 +231,7 @@ static ld_status begin_folder(ld_output *output, ld_error *error)
 
 static ld_status create_hdf5(ld_output *output, ld_error *error)
 {
-    const char *title = output->model->title;
+    const char *title = model_title(output->model);
     ld_origin origin;
     ld_status status =
         history_hdf5_create(output->part[MANIFEST_HDF5], title ? title : "", &output->hdf5, error);

@@ -11,7 +11,7 @@
 #include "base/numeric_locale.h"
 #include "launchdyn/output.h"
 #include "launchdyn/version.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 #include "results/json.h"
@@ -116,11 +116,11 @@ static void write_modes(json_writer *json, const ld_summary *summary, const quan
 static void write_measures(json_writer *json, const ld_model *model)
 {
     static const char *const takes[] = {"value", "peak", "change", "rms", "mean"};
-    if (model->measure_count == 0)
+    if (model_measure_count(model) == 0)
         return;
     json_open(json, "measures", '[');
-    for (int i = 0; i < model->measure_count; i++) {
-        const ld_measure *measure = &model->measure[i];
+    for (int i = 0; i < model_measure_count(model); i++) {
+        const ld_measure *measure = model_measure(model, i);
         json_open(json, NULL, '{');
         json_text(json, "name", measure->name);
         json_text(json, "unit", measure_unit(model, i));
@@ -189,7 +189,8 @@ static void write_summary(json_writer *json, const ld_model *model, const ld_sum
     json_open(json, NULL, '{');
     json_key(json, "format");
     fputs(MANIFEST_FORMAT, json->file);
-    json_text(json, "title", model->title ? model->title : "");
+    const char *title = model_title(model);
+    json_text(json, "title", title ? title : "");
     json_text(json, "version", LD_VERSION);
     json_key(json, "program");
     origin_write_program(json->file, origin);

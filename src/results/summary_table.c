@@ -3,7 +3,7 @@
 #include "base/printed.h"
 #include "launchdyn/output.h"
 #include "math/functions.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
 #include "run/measures.h"
@@ -143,8 +143,8 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
 {
     const quantity_things things = quantity_things_of(model);
     bool launch = model_has_launcher(model);
-    const char *unnamed = launch ? "Launch" : "Flight alone";
-    fprintf(stream, "%s\n", model->title && *model->title ? VISIBLE(model->title) : unnamed);
+    const char *title = model_title(model), *unnamed = launch ? "Launch" : "Flight alone";
+    fprintf(stream, "%s\n", title && *title ? VISIBLE(title) : unnamed);
     if (launch) {
         print_modes(model, summary, stream);
         if (isfinite(summary->equilibrium.residual))

@@ -7,7 +7,8 @@
 
 #include "base/suggestion.h"
 #include "flight/flight_history.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "state/history.h"
 #include "systems/bases/base.h"
 
@@ -31,7 +32,7 @@ static bool is_in_flight(const ld_model *model, const ld_measure *measure)
 static void tables_of(const ld_model *model, bool flight, const quantity_table *tables[TABLES])
 {
     tables[0] = flight ? &flight_quantities : &launch_quantities;
-    tables[1] = flight ? NULL : base_quantities(model->base.kind);
+    tables[1] = flight ? NULL : base_quantities(model_base(model)->kind);
     tables[2] = flight ? NULL : &balance_quantities;
 }
 
@@ -39,9 +40,9 @@ const char *measure_unit(const ld_model *model, int item)
 {
     const quantity_table *tables[TABLES];
     const quantity *row = NULL;
-    tables_of(model, is_in_flight(model, &model->measure[item]), tables);
+    tables_of(model, is_in_flight(model, model_measure(model, item)), tables);
     for (int i = 0; i < TABLES && !row; i++)
-        row = tables[i] ? quantity_like(tables[i], model->measure[item].of) : NULL;
+        row = tables[i] ? quantity_like(tables[i], model_measure(model, item)->of) : NULL;
     return row ? row->unit : "";
 }
 
@@ -58,10 +59,11 @@ typedef struct column_search {
 
 static column_search search_in(const ld_model *model, bool flight)
 {
-    const ld_modes *modes = &model->tubes.modes;
+    const ld_modes *modes = &model_tubes(model)->modes;
     column_search search = {.things = quantity_things_of(model)};
     search.things.count[EACH_COORDINATE] = 2 * modes->bending + modes->torsion + modes->axial;
-    search.things.count[EACH_EARTH] = flight && model->environment.earth.kind != LD_EARTH_FLAT;
+    search.things.count[EACH_EARTH] =
+        flight && model_environment(model)->earth.kind != LD_EARTH_FLAT;
     tables_of(model, flight, search.table);
     return search;
 }
@@ -128,7 +130,7 @@ enum { MOST_INSTANTS = 10 + LD_MAX_ADAPTORS };
 static int list_tube_instants(const ld_model *model, char exits[LD_MAX_ADAPTORS][LD_MAX_QUANTITY],
                               instant_row *row)
 {
-    const ld_rocket *rocket = &model->rocket;
+    const ld_rocket *rocket = model_rocket(model);
     int count = 0;
     row[count++] = (instant_row){"t_ignition", {INSTANT_IGNITION, 0}};
     if (rocket->lock.present)
@@ -175,7 +177,7 @@ static bool instant_named(const ld_model *model, const char *name, measure_insta
 // apogee.
 static int compare(const ld_model *model, measure_instant a, measure_instant b)
 {
-    const ld_adaptor *adaptor = model->rocket.adaptor;
+    const ld_adaptor *adaptor = model_rocket(model)->adaptor;
     if (a.kind == INSTANT_APOGEE && b.kind == INSTANT_BURNOUT)
         return -1;
     if (a.kind != b.kind || a.kind != INSTANT_EXIT)
@@ -242,7 +244,7 @@ static void refuse_instant(const measure_check *check, const char *key, const ch
     if (launcher && strcmp(name, "t_middle") == 0)
         refuse(check, key,
                "found \"t_middle\", which requires exactly three adaptors; the rocket has %d",
-               check->model->rocket.adaptor_count);
+               model_rocket(check->model)->adaptor_count);
     else if (launcher && strcmp(name, "t_release") == 0)
         refuse(check, key, "found \"t_release\", but the rocket has no lock");
     else if (best.name)
@@ -267,7 +269,8 @@ static bool check_instant(const measure_check *check, const char *key, const cha
 // Whether the run begins with the first ignition.
 static bool starts_lit(const ld_model *model)
 {
-    return model->firing_count > 0 && !(0 - model->run.lead_in < model->firing[0].at);
+    return model_firing_count(model) > 0 &&
+           !(0 - model_run(model)->lead_in < model_firing(model, 0)->at);
 }
 
 // Of a flight: that rockets fly, and that the window begins when they do.
@@ -275,7 +278,7 @@ static void check_flight(const measure_check *check, const ld_measure *measure,
                          measure_instant from)
 {
     const char *begins = measure->take == LD_TAKE_VALUE ? "at" : "from";
-    bool tip = model_has_launcher(check->model) && check->model->run.end == LD_END_TIP;
+    bool tip = model_has_launcher(check->model) && model_run(check->model)->end == LD_END_TIP;
     bool early = from.kind < INSTANT_EXIT || (from.kind == INSTANT_EXIT && from.adaptor > 0);
     if (tip)
         refuse(check, is_of_flight(measure->from) ? begins : "to",
@@ -324,7 +327,7 @@ static void check_window(const measure_check *check, const ld_measure *measure)
 
 static void check_name(const measure_check *check, const ld_measure *measure)
 {
-    const ld_measure *all = check->model->measure;
+    const ld_measure *all = model_measure(check->model, 0);
     for (const ld_measure *before = all; before < measure; before++)
         if (measure->name[0] && strcmp(before->name, measure->name) == 0)
             refuse(check, "name", "measure %d has the same name", (int)(before - all) + 1);
@@ -332,8 +335,8 @@ static void check_name(const measure_check *check, const ld_measure *measure)
 
 void measures_check(const ld_model *model, rule_report *report, void *self)
 {
-    for (int i = 0; i < model->measure_count; i++) {
-        const ld_measure *measure = &model->measure[i];
+    for (int i = 0; i < model_measure_count(model); i++) {
+        const ld_measure *measure = model_measure(model, i);
         const measure_check check = {model, report, self, i + 1};
         check_name(&check, measure);
         check_window(&check, measure);
@@ -377,8 +380,8 @@ ld_status measures_build(const ld_model *model, measure_plan plan[LD_MAX_MEASURE
 {
     first_refusal first = {error, LD_OK};
     measures_check(model, keep_first, &first);
-    for (int i = 0; i < model->measure_count && !first.status; i++) {
-        const ld_measure *measure = &model->measure[i];
+    for (int i = 0; i < model_measure_count(model) && !first.status; i++) {
+        const ld_measure *measure = model_measure(model, i);
         const char *to = measure->take == LD_TAKE_VALUE ? measure->from : measure->to;
         plan[i] = (measure_plan){.flight = is_in_flight(model, measure),
                                  .column = column_number(model, measure),

@@ -18,7 +18,8 @@
 #include "launch/launch_run.h"
 #include "launch/launch_summary.h"
 #include "launch/launch_told.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "state/history.h"
 
 static bool has_launch(const ld_run *run)
@@ -203,8 +204,8 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
         return ld_fail(error, LD_ERR_INPUT,
                        "the run is at t = %.9g s: no rocket can be ignited at t = %.9g s", run->t,
                        t);
-    bool last = launch->current + 1 == model->firing_count;
-    if (!last && t >= model->firing[launch->current + 1].at)
+    bool last = launch->current + 1 == model_firing_count(model);
+    if (!last && t >= model_firing(model, launch->current + 1)->at)
         return ld_fail(error, LD_ERR_INPUT,
                        "at t = %.9g s rocket %d cannot be ignited: the next rocket is fired", t,
                        launch->current + 1);
@@ -212,8 +213,8 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
     if (launch_stand(run))
         return told(run, error);
     launch->t_ignition = run->summary.rocket[launch->current].t_ignition = t;
-    if (last && model->run.end == LD_END_TIME)
-        run->t_end = t + model->run.end_time;
+    if (last && model_run(model)->end == LD_END_TIME)
+        run->t_end = t + model_run(model)->end_time;
     if (t == run->t)
         launch_ignite(run);
     return told(run, error);
@@ -330,7 +331,7 @@ ld_status ld_run_end(ld_run *run, ld_summary *summary, ld_error *error)
 static ld_status begin_exit_error(ld_run *run)
 {
     const launch_state *launch = &run->launch;
-    if (!has_launch(run) || launch->model->run.exit_error != LD_EXIT_ERROR_YES)
+    if (!has_launch(run) || model_run(launch->model)->exit_error != LD_EXIT_ERROR_YES)
         return LD_OK;
     double start = cpu_time_now();
     ld_status status = exit_error_create(launch->system, &run->exit_error, &run->error);

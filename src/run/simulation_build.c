@@ -5,6 +5,7 @@
 
 #include "base/cpu_time.h"
 #include "flight/flight_alone.h"
+#include "model/parts.h"
 #include "model/salvo.h"
 #include "run/measures.h"
 #include "run/vehicle_run.h"
@@ -16,11 +17,11 @@ static ld_status create_flights(ld_simulation *self, ld_error *error)
     const ld_model *model = self->model;
     if (!model_feels_air(model) && !model_has_jet(model))
         return LD_OK;
-    self->flight_of = calloc((size_t)model->firing_count, sizeof *self->flight_of);
+    self->flight_of = calloc((size_t)model_firing_count(model), sizeof *self->flight_of);
     if (!self->flight_of)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the air about the rockets");
     ld_status status = LD_OK;
-    for (int i = 0; i < model->firing_count && !status; i++) {
+    for (int i = 0; i < model_firing_count(model) && !status; i++) {
         status = flight_build(&self->flight_of[i], model, i, error);
         self->flight_count += !status;
     }
@@ -31,7 +32,7 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
 {
     const ld_model *model = self->model;
     ld_status status = launcher_build(&self->launcher, model, kept, error);
-    int count = model->salvo ? model->firing_count : 1;
+    int count = salvo_is_given(model) ? model_firing_count(model) : 1;
     for (int i = 0; i < count && !status; i++) {
         status = motor_build(&self->motor_of[i], salvo_rocket(model, i), error);
         self->motor_count += !status;

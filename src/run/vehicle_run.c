@@ -12,7 +12,7 @@
 #include "integration/integrator.h"
 #include "integration/saved_state.h"
 #include "launchdyn/vehicle_run.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/launch_state.h"
@@ -112,10 +112,10 @@ static ld_status check_model(const ld_model *model, ld_error *error)
 {
     if (!model_has_vehicle(model))
         return ld_fail(error, LD_ERR_INPUT, "base.kind: a vehicle-only run requires kind: vehicle");
-    if (model->firing_count > 1)
+    if (model_firing_count(model) > 1)
         return ld_fail(error, LD_ERR_INPUT,
                        "firing: found %d rockets, expected 1 in a vehicle-only run",
-                       model->firing_count);
+                       model_firing_count(model));
     if (model_has_jet(model))
         return ld_fail(error, LD_ERR_INPUT,
                        "platform.jet: a vehicle-only run does not have the rocket's position, "
@@ -125,7 +125,7 @@ static ld_status check_model(const ld_model *model, ld_error *error)
 
 static ld_status create_integrator(ld_vehicle_run *self, ld_error *error)
 {
-    const ld_run_settings *run = &self->system->model->run;
+    const ld_run_settings *run = model_run(self->system->model);
     double atol[MOST_STATES];
     bool absolute[MOST_STATES] = {false};
     self->base.kind->dynamics->tolerances(&self->base, run->tolerance, atol, absolute);

@@ -2,6 +2,7 @@
 #include <locale.h>
 
 #include "base/printed.h"
+#include "model/fields/factor.h"
 #include "model/fields/field.h"
 #include "model/model.h"
 #include "quantities/study_results.h"

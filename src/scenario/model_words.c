@@ -8,6 +8,7 @@
 #include "math/functions.h"
 #include "model/fields/field.h"
 #include "model/model.h"
+#include "model/parts.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 

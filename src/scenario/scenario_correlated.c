@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "model/fields/factor.h"
 #include "model/fields/field.h"
 #include "model/model.h"
 #include "scenario/scenario_reader.h"

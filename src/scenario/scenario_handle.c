@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/model.h"
+#include "model/parts.h"
 #include "scenario/scenario.h"
 
 // Hands out what has been read; NULL after a failure.

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/fields/factor.h"
 #include "model/fields/field.h"
 #include "model/model.h"
 #include "scenario/scenario_reader.h"

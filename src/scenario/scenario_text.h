@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "launchdyn/status.h"
+#include "model/blocks/study.h"
 #include "model/fields/field.h"
 
 // A factor's distribution, "normal: 0.2 kg, within: 3"; what is too long is cut.

@@ -8,7 +8,8 @@
 #include "math/functions.h"
 #include "math/matrices/lapack.h"
 #include "math/vectors/rotation_vector.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "state/carried.h"
 #include "state/evaluation.h"
 #include "state/exit_figures.h"
@@ -452,7 +453,7 @@ static v3 pull_at(const launch_state *self, double t, const double *y)
 {
     launcher_input input;
     simulation_input(self, t, y, &input);
-    return m3_apply_transposed(input.launching.base.A, v3_make(0, -self->model->gravity, 0));
+    return m3_apply_transposed(input.launching.base.A, v3_make(0, -model_gravity(self->model), 0));
 }
 
 static bool is_upright(const problem *the, const double *start)
@@ -536,7 +537,7 @@ static double try_centred(const problem *the, const double *start, double depth,
     guess_straight(the, start, y);
     y[the->self->launcher.launching.layout.x + X_S] -= depth;
     double reached = settle(&held, y), holds = held_by_spring(&held, y, &unused);
-    return holds < 1e-9 * the->self->model->gravity ? reached : INFINITY;
+    return holds < 1e-9 * model_gravity(the->self->model) ? reached : INFINITY;
 }
 
 // One adaptor in the plane across the tube: its load, and where that presses it.
@@ -862,8 +863,8 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
                          double *y)
 {
     double pressed = -self->motor->full.m * pull_at(self, the->t, start).x;
-    bool stands =
-        !self->rocket->lock.present && pressed > 1e-9 * self->motor->full.m * self->model->gravity;
+    bool stands = !self->rocket->lock.present &&
+                  pressed > 1e-9 * self->motor->full.m * model_gravity(self->model);
     double depth = stands ? depth_under(&self->rocket->contact, pressed) : 0;
     self->on_breech = false;
     if (self->launcher.launching.surfaces.count) {
@@ -950,7 +951,7 @@ static const char *smallest_residual(double best, char text[64])
 
 static double accepted_residual(const launch_state *self)
 {
-    return 1e-6 * (1 + self->model->gravity);
+    return 1e-6 * (1 + model_gravity(self->model));
 }
 
 // The same for tube and rocket where the base stands in `start`. Kilometres from the origin it is
@@ -1101,7 +1102,7 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
 
 double simulation_start_time(const ld_model *model)
 {
-    return fmin(model->firing[0].at, 0 - model->run.lead_in);
+    return fmin(model_firing(model, 0)->at, 0 - model_run(model)->lead_in);
 }
 
 ld_status simulation_start(launch_state *self, double t, double *y, ld_equilibrium_summary *summary,
@@ -1110,7 +1111,7 @@ ld_status simulation_start(launch_state *self, double t, double *y, ld_equilibri
     const ld_simulation *system = self->system;
     if (system->stability)
         return ld_fail(error, system->stability, "%s", system->unstable.text);
-    ld_status status = self->model->run.start == LD_START_EQUILIBRIUM
+    ld_status status = model_run(self->model)->start == LD_START_EQUILIBRIUM
                            ? simulation_equilibrium(self, t, y, summary, error)
                            : simulation_undeformed(self, t, y, error);
     if (!status)
@@ -1206,7 +1207,7 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
         return ld_fail(
             error, LD_ERR_LAUNCH,
             "rocket.start_at: tube %d has no static equilibrium at its turn, t = %.6g s: %s",
-            self->model->firing[next].tube, t, why);
+            model_firing(self->model, next)->tube, t, why);
 
     // the new tube in equilibrium on the base held still
     base_frame going = going_of(self, t, y);
@@ -1231,7 +1232,7 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     if (!(best <= accepted))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "tube %d has no static equilibrium at its turn, t = %.6g s%s",
-                       self->model->firing[next].tube, t, smallest_residual(best, left));
+                       model_firing(self->model, next)->tube, t, smallest_residual(best, left));
     status = check_carried(&tube, found, accepted, error);
     if (status)
         return status;

@@ -1,5 +1,6 @@
 #include "state/evaluation.h"
-#include "model/model.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "systems/launching/launching_dynamics.h"
 
 #include <math.h>
@@ -36,7 +37,7 @@ void simulation_surround(const launch_state *self, double t, const double *y,
 
 jet_wrench simulation_jets(const launch_state *self, double t, const base_frame *tube)
 {
-    return jets_at(&self->jets, t, tube, self->model->firing[self->launcher.base.tube].tube);
+    return jets_at(&self->jets, t, tube, model_firing(self->model, self->launcher.base.tube)->tube);
 }
 
 void simulation_input(const launch_state *self, double t, const double *y, launcher_input *input)
@@ -46,7 +47,7 @@ void simulation_input(const launch_state *self, double t, const double *y, launc
     input->jet = simulation_jets(self, t, &input->launching.base);
     input->rest = self->rest;
     input->held = false;
-    input->formulation = self->model->run.formulation;
+    input->formulation = model_run(self->model)->formulation;
 }
 
 launching_outcome simulation_loads(const launch_state *self, launcher_input *input, const double *y,
@@ -120,7 +121,7 @@ bool simulation_is_latest(const launch_state *self, double t, const double *y)
 void simulation_note_outcome(launch_state *self, launching_outcome outcome)
 {
     self->jammed = outcome == LAUNCHING_JAMMED;
-    if (outcome || self->model->run.formulation != LD_FORMULATION_OVERALL)
+    if (outcome || model_run(self->model)->formulation != LD_FORMULATION_OVERALL)
         return;
     const launching_output *out = &self->latest.out.launching;
     self->fallbacks += out->fell_back;

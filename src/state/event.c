@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "model/model.h"
+#include "model/parts.h"
 
 static void add(event_list *self, event_kind kind, int count)
 {

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 
 #include "elements/air/barrowman.h"
+#include "model/blocks/platform.h"
 #include "model/guide.h"
+#include "model/parts.h"
 #include "model/salvo.h"
 
 enum { MOST_ARRAYS = 32 };
@@ -243,7 +245,8 @@ static void add_outline(geometry *all, const ld_aerodynamics *aero)
 static void add_rocket(geometry *all, const ld_model *model)
 {
     const ld_rocket *rocket = salvo_rocket(model, 0);
-    int count = rocket->adaptor_count, firings = model->salvo ? model->firing_count : 1;
+    int count = rocket->adaptor_count,
+        firings = salvo_is_given(model) ? model_firing_count(model) : 1;
     double *at = add(all, "rocket.adaptor", "m", (size_t)count, 1,
                      "centres of the adaptors on the axis, from the rear one's");
     double *clearance = add(
@@ -264,18 +267,19 @@ static void add_rocket(geometry *all, const ld_model *model)
 static void add_base(geometry *all, const base_system *base)
 {
     const ld_model *model = base->model;
-    const ld_vehicle *vehicle = &model->base.vehicle;
+    const ld_base *given = model_base(model);
+    const ld_vehicle *vehicle = &given->vehicle;
     if (!base_as_vehicle(base)) {
-        double mount[2] = {model->base.azimuth, model->base.elevation};
+        double mount[2] = {given->azimuth, given->elevation};
         add_row(all, "base.mount", "rad", 2, mount, "tube against the base: azimuth, elevation");
-        double looks = model->base.looks;
+        double looks = given->looks;
         add_row(all, "base.looks", "1", looks != LD_LOOKS_PLAIN, &looks,
                 "what the base is drawn as: 1 ship, 2 aircraft; a plain one has none");
         return;
     }
-    add_row(all, "azimuth.hinge", "m", 3, model->platform.azimuth.hinge_at,
+    add_row(all, "azimuth.hinge", "m", 3, model_platform(model)->azimuth.hinge_at,
             "hinge of the azimuth platform, axes of the chassis, from its mass centre");
-    add_row(all, "elevation.hinge", "m", 3, model->platform.elevation.hinge_at,
+    add_row(all, "elevation.hinge", "m", 3, model_platform(model)->elevation.hinge_at,
             "hinge of the elevation platform, axes of the azimuth platform, from its hinge");
     double *mount = add(all, "wheel.mount", "m", (size_t)vehicle->wheel_count, 3,
                         "wheel centres with unloaded suspension, axes of the chassis");
@@ -304,9 +308,9 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
     if (!all.value)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the geometry");
     add_shapes(&all, &self->launcher.launching.tube.flexible);
-    add_tube(&all, &self->model->tubes);
-    add_guide(&all, &self->model->tubes);
-    add_layout(&all, &self->model->tubes);
+    add_tube(&all, model_tubes(self->model));
+    add_guide(&all, model_tubes(self->model));
+    add_layout(&all, model_tubes(self->model));
     add_rocket(&all, self->model);
     add_base(&all, &self->launcher.base);
     ld_status status = sink->geometry(sink->self, all.array, all.count, error);

@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "integration/dormand_prince.h"
-#include "model/model.h"
+#include "model/blocks/platform.h"
+#include "model/parts.h"
 
 // How far apart the places of a course are [s]; between them it is a cubic. How far beyond the
 // table's end it goes on [m]: so much may a mouth leave the way that it had when its rocket left.
@@ -21,10 +22,10 @@ void jets_free(jets *self)
 
 v3 jets_mouth(const ld_model *model, int tube, int launching)
 {
-    const ld_layout *layout = &model->tubes.layout;
+    const ld_layout *layout = &model_tubes(model)->layout;
     v3 between =
         v3_sub(orientating_tube_place(layout, tube), orientating_tube_place(layout, launching));
-    return v3_add(between, v3_make(model->tubes.length, 0, 0));
+    return v3_add(between, v3_make(model_tubes(model)->length, 0, 0));
 }
 
 // ---- a course
@@ -118,7 +119,7 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
 ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase, int tube,
                    const jet_place *mouth, const double *state, ld_error *error)
 {
-    const ld_table *table = &self->model->platform.jet;
+    const ld_table *table = &model_platform(self->model)->jet;
     jet *one = &self->of[self->count++];
     *one = (jet){.flight = flight,
                  .t_ignition = phase->t_ignition,
@@ -159,7 +160,7 @@ static double table_at(const ld_table *table, double distance)
 
 jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching)
 {
-    const ld_platform *platform = &self->model->platform;
+    const ld_platform *platform = model_platform(self->model);
     jet_wrench sum = {0};
     for (int i = 0; i < self->count; i++) {
         const jet *one = &self->of[i];

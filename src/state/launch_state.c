@@ -3,6 +3,8 @@
 #include <assert.h>
 #include <string.h>
 
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "model/salvo.h"
 
 ld_status launch_state_begin(launch_state *self, const ld_simulation *system, ld_error *error)
@@ -29,7 +31,7 @@ launching_phase simulation_start_phase(const launch_state *self)
     phase.breech = rocket->start_at;
     phase.breech_speed = rocket->contact.reference_speed;
     // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
-    double out = self->model->tubes.length - 1e-6;
+    double out = model_tubes(self->model)->length - 1e-6;
     for (int i = 0; i < rocket->adaptor_count; i++) {
         phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
         phase.touch_speed[i] = rocket->contact.reference_speed;
@@ -52,13 +54,13 @@ void simulation_straight(const launch_state *self, const base_frame *base, doubl
 
 void launch_state_select(launch_state *self, int i)
 {
-    assert(i >= 0 && i < self->model->firing_count);
+    assert(i >= 0 && i < model_firing_count(self->model));
     self->current = i;
     self->motor = simulation_motor(self->system, i);
     self->air = model_feels_air(self->model) ? simulation_flight(self->system, i) : NULL;
     self->rocket = salvo_rocket(self->model, i);
     launching_set_rocket(&self->launcher.launching, self->rocket);
-    self->t_ignition = self->model->firing[i].at;
+    self->t_ignition = model_firing(self->model, i)->at;
     self->phase = simulation_start_phase(self);
     self->piece = -1;
     self->pressure_piece = 0;

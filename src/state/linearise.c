@@ -9,7 +9,7 @@
 #include "math/matrices/dense.h"
 #include "math/matrices/general_eigen.h"
 #include "math/vectors/rotation_vector.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/launch_state.h"
@@ -236,8 +236,8 @@ static void count_unknowns(const launch_state *self, bool alone, linear_system *
 ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error)
 {
     ld_equilibrium_summary unused;
-    *system =
-        (linear_system){.t = -self->model->run.lead_in, .phase = simulation_start_phase(self)};
+    *system = (linear_system){.t = -model_run(self->model)->lead_in,
+                              .phase = simulation_start_phase(self)};
     system->phase.frictionless = true;
     self->piece = -1;
     self->pressure_piece = 0;
@@ -672,8 +672,8 @@ static void modes_of_poles(const ld_pole *poles, int pole_count, ld_mode *modes,
 static bool on_slides(const ld_model *model)
 {
     bool any = false;
-    for (int k = 0; k < model->tubes.support_count; k++)
-        any |= model->tubes.support[k].recoil.present;
+    for (int k = 0; k < model_tubes(model)->support_count; k++)
+        any |= model_tubes(model)->support[k].recoil.present;
     return any;
 }
 

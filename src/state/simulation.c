@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/model.h"
+#include "model/salvo.h"
 
 ld_simulation *simulation_make(ld_error *error)
 {
@@ -39,7 +39,7 @@ void ld_simulation_free(ld_simulation *self)
 
 const motor *simulation_motor(const ld_simulation *self, int i)
 {
-    return &self->motor_of[self->model->salvo ? i : 0];
+    return &self->motor_of[salvo_is_given(self->model) ? i : 0];
 }
 
 const flight_system *simulation_flight(const ld_simulation *self, int i)

@@ -7,6 +7,7 @@
 // the column ought to hold is said here (support/column_book.h).
 #include "math/vectors/mat3.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "state/launch_state.h"
 #include "support/column_book.h"
 #include "support/dense_simulation.h"

@@ -1,4 +1,5 @@
 // Correlated factors: correlations as the matrix says, distributions as without it, nothing moved.
+#include "model/fields/factor.h"
 #include "support/check.h"
 
 #include <stdlib.h>

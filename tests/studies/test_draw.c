@@ -1,4 +1,6 @@
 // Drawn values: their distributions, hypercubes, and that none depends on what else is drawn.
+#include "model/fields/factor.h"
+#include "model/model.h"
 #include "support/check.h"
 
 #include <stdlib.h>
@@ -291,8 +293,8 @@ static double longest_step(const char *factors, double given, double *tolerance)
     assert_int_equal(sampler_create(&sampler, &model, &error), LD_OK);
     study_sample *sample = sample_create(&sampler);
     assert_int_equal(sample_draw(sample, &sampler, 3, &error), LD_OK);
-    double step = sample->model.run.max_step;
-    *tolerance = sample->model.run.tolerance;
+    double step = sample->model->run.max_step;
+    *tolerance = sample->model->run.tolerance;
     sample_free(sample);
     sampler_free(&sampler);
     model_clear(&model);
@@ -344,7 +346,7 @@ static double propellant_fired(const study_sample *sample)
 }
 static double propellant_aboard(const study_sample *sample)
 {
-    return sample->model.rocket.propellant;
+    return sample->model->rocket.propellant;
 }
 static double empty_mass(const study_sample *sample)
 {
@@ -356,11 +358,11 @@ static double empty_center(const study_sample *sample)
 }
 static double stuck_time(const study_sample *sample)
 {
-    return sample->model.run.stuck_time;
+    return sample->model->run.stuck_time;
 }
 static double ground(const study_sample *sample)
 {
-    return sample->model.environment.ground_height;
+    return sample->model->environment.ground_height;
 }
 
 // What the scenario leaves to follow from other numbers follows from those that are drawn: of every

@@ -1,4 +1,5 @@
 // Studies: the same results whatever the number of threads and the interruptions; what is kept.
+#include "model/model.h"
 #include "support/study_run.h"
 
 #include <signal.h>

@@ -1,5 +1,6 @@
 // Sweeps: points and their samples. Stopping rules: the same end however the study is run.
 // ctest: slow
+#include "model/model.h"
 #include "support/study_run.h"
 
 #include <stdatomic.h>

@@ -4,6 +4,7 @@
 
 #include "model/guide.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "quantities/summary.h"
 #include "support/check.h"
 #include "support/draw.h"

@@ -1,6 +1,7 @@
 // The launching subsystem against dense multipliers from positions alone, on random states.
 #include <stdlib.h>
 
+#include "model/parts.h"
 #include "support/check.h"
 #include "support/evaluators.h"
 #include "support/launching_state.h"

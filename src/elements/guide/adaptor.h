@@ -8,6 +8,7 @@
 
 #include "elements/guide/contact.h"
 #include "elements/rocket.h"
+#include "model/blocks/rocket.h"
 
 enum { IDEAL_MOST_ADAPTORS = 2 }; // that can be held on the axis: three hold more than there is
 

@@ -8,6 +8,7 @@
 
 #include "elements/guide/constraint.h"
 #include "math/functions.h"
+#include "model/blocks/rocket.h"
 
 typedef struct lock_system {
     v3 at; // [m] L in B

@@ -2,6 +2,7 @@
 #include "model/fields/field.h"
 #include "model/fields/source.h"
 #include "model/model.h"
+#include "model/parts.h"
 
 #include <stdlib.h>
 #include <string.h>

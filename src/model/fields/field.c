@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "model/blocks/study.h"
 
 const field_row *field_find(const field_block *block, const char *name)
 {

@@ -11,7 +11,6 @@
 
 #include "launchdyn/model.h"
 #include "model/blocks/limits.h"
-#include "model/blocks/study.h"
 
 typedef enum field_kind {
     FIELD_NUMBER,     // `count` doubles with one unit
@@ -193,22 +192,6 @@ double field_get(const ld_model *model, const field_place *place);
 // The number with the path of keys; NaN where the model has none.
 double field_number(const ld_model *model, const char *path);
 void field_set(ld_model *model, const field_place *place, double value);
-
-// How many numbers a factor scatters, and the path of each.
-int factor_numbers(const ld_factor *factor);
-const char *factor_path(const ld_factor *factor, int number);
-// Whether its numbers are there and the factor's distribution goes with them; false: `why` says why
-// not.
-bool factor_is_possible(const ld_model *model, const ld_factor *factor, char *why, size_t size);
-// Whether the factors of a group can be correlated as it says; false: `why` says why not.
-bool correlated_is_possible(const ld_scatter *scatter, const ld_correlated *group, char *why,
-                            size_t size);
-// Lower triangular factor L with L L' = matrix, both count x count by rows of LD_MAX_CORRELATED
-// (Cholesky); false: the matrix is not positive definite.
-bool correlated_factorise(const ld_correlated *group,
-                          double lower[LD_MAX_CORRELATED][LD_MAX_CORRELATED]);
-// Whether the rockets of one sample may differ in it.
-bool factor_may_be_per_rocket(const ld_factor *factor);
 
 bool field_in_range(field_range range, double value);
 // "> 0 kg", "0 to 1"; "" where all is allowed. Angles in degrees.

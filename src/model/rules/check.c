@@ -1,6 +1,8 @@
 // Checks of a model that was filled by hand: every value against its table, then the rules.
+#include "model/fields/factor.h"
 #include "model/fields/field.h"
 #include "model/model.h"
+#include "model/parts.h"
 
 #include <stdint.h>
 #include <stdio.h>

@@ -3,6 +3,7 @@
 #define LD_MODEL_RULE_H
 
 #include "launchdyn/status.h"
+#include "model/blocks/table.h"
 #include "model/fields/field.h"
 
 typedef struct rule_set {

@@ -8,6 +8,7 @@
 #include "model/masses.h"
 #include "model/model.h"
 #include "model/moist_air.h"
+#include "model/parts.h"
 
 // A station must lie on the tube.
 static void station_rule(const rule_set *rules, const char *path, int index, double at)

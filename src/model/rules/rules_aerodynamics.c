@@ -1,5 +1,6 @@
 // Rules of the air on the rocket.
 #include "model/model.h"
+#include "model/parts.h"
 #include "model/rules/rules.h"
 
 #include <stdio.h>

@@ -2,6 +2,7 @@
 #include <strings.h>
 
 #include "model/model.h"
+#include "model/parts.h"
 #include "model/rules/rules.h"
 
 static void bore_rules(const rule_set *rules)

@@ -1,5 +1,6 @@
 // Rules that tie keys of the vehicle and its platforms together.
 #include "model/model.h"
+#include "model/parts.h"
 #include "model/rules/rules.h"
 
 #include <stdio.h>

@@ -4,6 +4,7 @@
 #include "math/functions.h"
 #include "model/fields/field.h"
 #include "model/model.h"
+#include "model/parts.h"
 
 #define PI 3.14159265358979323846
 

@@ -1,6 +1,7 @@
 // Plausibility of the rocket, its motor and its aerodynamics.
 #include "math/functions.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

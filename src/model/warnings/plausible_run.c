@@ -1,7 +1,9 @@
 // Plausibility of the environment, flights, runs and studies.
 #include "math/functions.h"
+#include "model/fields/factor.h"
 #include "model/model.h"
 #include "model/moist_air.h"
+#include "model/parts.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

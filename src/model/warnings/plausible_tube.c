@@ -2,6 +2,7 @@
 #include "math/functions.h"
 #include "model/guide.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

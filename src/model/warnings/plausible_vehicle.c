@@ -1,6 +1,7 @@
 // Plausibility of a vehicle: wheels, road, chassis and platforms.
 #include "math/functions.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "model/warnings/estimates.h"
 #include "model/warnings/plausible.h"
 

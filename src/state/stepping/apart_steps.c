@@ -5,7 +5,7 @@
 
 #include "elements/held_frame.h"
 #include "elements/held_wrench.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/evaluation.h"
 #include "state/stepping/integrated_steps.h"
 #include "systems/launching/launching_dynamics.h"
@@ -52,8 +52,8 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
     launching_output *out = &launch->latest.out.launching;
     find_launching_input(self, t, y, &input);
     launch->latest.known = false; // not one of the whole
-    launching_outcome outcome = launcher_evaluate_tube(launcher, launch->model->run.formulation,
-                                                       &input, &launch->phase, y, out);
+    launching_outcome outcome = launcher_evaluate_tube(
+        launcher, model_run(launch->model)->formulation, &input, &launch->phase, y, out);
     simulation_note_outcome(launch, outcome);
     if (outcome)
         return -1;
@@ -238,7 +238,7 @@ static ld_status take_base_on(apart_steps *self, const double *y, ld_error *erro
 // Instant of the next exchange, of those after t; the corners of commands at `t_stop` before it.
 static double next_exchange(apart_steps *self, double t, double t_stop)
 {
-    double step = launch_of(self)->model->run.coupling_step;
+    double step = model_run(launch_of(self)->model)->coupling_step;
     while (self->t_first + (double)self->exchanges * step <= t + 1e-9 * step)
         self->exchanges++;
     // a stop that the next exchange misses by rounding is that exchange: the accelerations that
@@ -313,7 +313,7 @@ static ld_status create_base(apart_steps *self, const integrator_settings *whole
 
 bool apart_steps_are_wanted(const launch_state *launch)
 {
-    return base_as_vehicle(&launch->launcher.base) && launch->model->run.coupling_step > 0;
+    return base_as_vehicle(&launch->launcher.base) && model_run(launch->model)->coupling_step > 0;
 }
 
 static ld_status create(propagator *object, ld_error *error)
@@ -474,7 +474,7 @@ static void archive_all(propagator *object, archive *bytes)
         archive_double(bytes, instants[i]);
     archive_count(bytes, &self->exchanges);
     // the exchanges are counted up to one that lies ahead
-    double step = launch->model->run.coupling_step;
+    double step = model_run(launch->model)->coupling_step;
     bytes->failed |= !(self->t_first + ((double)self->exchanges + 1) * step >= self->t);
     archive_frame(bytes, &self->chassis);
     archive_frame(bytes, &self->tube);

@@ -1,6 +1,6 @@
 #include "state/stepping/integrated_steps.h"
 
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/evaluation.h"
 
 static integrator *integrator_of(const propagator *self)
@@ -36,8 +36,8 @@ static int events(double t, const double *y, double *g, void *user)
 static integrator_method choose_method(const launch_state *launch)
 {
     bool held = launch->launcher.launching.adaptors.law.held;
-    return held && launch->model->run.tolerance >= 1e-6 ? INTEGRATOR_OSCILLATING
-                                                        : INTEGRATOR_CASH_KARP;
+    return held && model_run(launch->model)->tolerance >= 1e-6 ? INTEGRATOR_OSCILLATING
+                                                               : INTEGRATOR_CASH_KARP;
 }
 
 // Whether the end of each step is put back onto the constraints: with what they hold in places, and
@@ -49,7 +49,7 @@ static bool puts_back(const launch_state *launch)
     const base_system *base = &launch->launcher.base;
     bool moved = !base->kind->dynamics && !base->kind->stepping && !base->kind->tell;
     return launching_holds_places(&launch->launcher.launching) ||
-           (moved && launch->model->run.lead_in > long_lead_in);
+           (moved && model_run(launch->model)->lead_in > long_lead_in);
 }
 
 integrator_settings integrated_settings(propagator *self, const tolerances *all)
@@ -58,10 +58,10 @@ integrator_settings integrated_settings(propagator *self, const tolerances *all)
     integrator_settings settings = {
         .n = (size_t)launch->launcher.state_count,
         .method = choose_method(launch),
-        .rtol = launch->model->run.tolerance,
+        .rtol = model_run(launch->model)->tolerance,
         .atol = all->atol,
         .absolute = all->absolute,
-        .max_step = launch->model->run.max_step,
+        .max_step = model_run(launch->model)->max_step,
         .rhs = rhs,
         .project = puts_back(launch) ? project : NULL,
         .events = events,

@@ -5,7 +5,7 @@
 
 #include "integration/exponential_steps.h"
 #include "math/matrices/exponential.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/stepping/integrated_steps.h"
 
 typedef struct long_steps {
@@ -62,7 +62,7 @@ static int find_blocks(const launcher_system *launcher, int *block)
 
 bool long_steps_are_wanted(const launch_state *launch)
 {
-    const ld_run_settings *run = &launch->model->run;
+    const ld_run_settings *run = model_run(launch->model);
     const base_system *base = &launch->launcher.base;
     bool sampled = base->kind->next_sample && !isinf(base->kind->next_sample(base, -run->lead_in));
     return run->lead_in_method == LD_LEAD_IN_EXPONENTIAL && !base->kind->tell && !sampled;
@@ -79,7 +79,7 @@ static ld_status create(propagator *object, ld_error *error)
         .equations = &equations,
         .block = self->block,
         .block_count = find_blocks(&launch->launcher, self->block),
-        .row = launch->model->run.output_step_lead_in,
+        .row = model_run(launch->model)->output_step_lead_in,
         .drift = drift,
     };
     memcpy(self->place, all.absolute, sizeof self->place);

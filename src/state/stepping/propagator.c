@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "model/model.h"
+#include "model/parts.h"
 #include "state/stepping/apart_steps.h"
 #include "state/stepping/integrated_steps.h"
 #include "state/stepping/long_steps.h"
@@ -125,5 +125,5 @@ void propagator_sizes(const propagator *self, double *size)
     tolerances all;
     tolerances_find(self->launch, &all);
     for (int i = 0; i < self->launch->launcher.state_count; i++)
-        size[i] = isinf(all.atol[i]) ? 0 : all.atol[i] / self->launch->model->run.tolerance;
+        size[i] = isinf(all.atol[i]) ? 0 : all.atol[i] / model_run(self->launch->model)->tolerance;
 }

@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "model/model.h"
+#include "model/parts.h"
 
 void tolerances_find(const launch_state *self, tolerances *all)
 {
     const launching_layout *at = &self->launcher.launching.layout;
-    double tolerance = self->model->run.tolerance, *atol = all->atol;
+    double tolerance = model_run(self->model)->tolerance, *atol = all->atol;
     memset(all->absolute, 0, sizeof all->absolute);
     for (int i = 0; i < LD_MAX_STATES; i++)
         atol[i] = INFINITY;

@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "math/curves/distributions.h"
 #include "math/functions.h"
+#include "model/fields/factor.h"
 
 // Feistel network on pairs of halves, walked again while it leaves 0 ... n - 1 (Black and Rogaway,
 // Ciphers with arbitrary finite domains, 2002).

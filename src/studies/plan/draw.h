@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "model/blocks/study.h"
 #include "model/fields/field.h"
 
 // The number in (0, 1) for sample `sample` (from 1) and rocket `rocket` (from 1; 0: of the sample),

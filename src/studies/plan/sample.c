@@ -3,6 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "model/fields/factor.h"
+#include "model/model.h"
+#include "model/parts.h"
 #include "studies/plan/draw.h"
 
 // Finds the numbers of factor `i`, whose first place is known.
@@ -60,18 +63,22 @@ study_sample *sample_create(const study_sampler *sampler)
     if (!self)
         return NULL;
     int most = sampler->of_sample + LD_MAX_FIRINGS * sampler->of_rocket;
+    self->model = calloc(1, sizeof *self->model);
+    self->salvo = calloc(LD_MAX_FIRINGS, sizeof *self->salvo);
     self->drawn = calloc((size_t)most + 1, sizeof(double));
-    if (!self->drawn) {
-        free(self);
-        return NULL;
-    }
-    return self;
+    if (self->model && self->salvo && self->drawn)
+        return self;
+    sample_free(self);
+    return NULL;
 }
 
 void sample_free(study_sample *self)
 {
-    if (self)
-        free(self->drawn);
+    if (!self)
+        return;
+    free(self->model);
+    free(self->salvo);
+    free(self->drawn);
     free(self);
 }
 
@@ -89,7 +96,7 @@ static double *draw_row(study_sample *self, const study_sampler *sampler, int64_
         double u = draw_uniform(scatter, factor, number, rocket);
         *drawn = draw_value(factor, place, sampler->nominal_value[i], u);
         for (int k = 0; k < factor_numbers(factor); k++)
-            field_set(&self->model, &place[k], *drawn);
+            field_set(self->model, &place[k], *drawn);
         drawn++;
     }
     return drawn;
@@ -99,28 +106,28 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
                       ld_error *error)
 {
     int rockets = sampler->nominal->firing_count;
-    self->model = *sampler->nominal;
-    self->model.sample = (int)number;
-    model_forget(&self->model); // it follows from what is drawn, for each rocket
+    *self->model = *sampler->nominal;
+    self->model->sample = (int)number;
+    model_forget(self->model); // it follows from what is drawn, for each rocket
     double *drawn = draw_row(self, sampler, number, 0, self->drawn);
-    ld_rocket shared = self->model.rocket;
+    ld_rocket shared = self->model->rocket;
     ld_status status = LD_OK;
     double stuck_time = NAN;
     for (int i = 1; i <= rockets; i++) {
-        model_forget(&self->model);
-        self->model.rocket = shared;
+        model_forget(self->model);
+        self->model->rocket = shared;
         drawn = draw_row(self, sampler, number, i, drawn);
-        model_complete(&self->model);
+        model_complete(self->model);
         if (!status)
-            status = model_check_drawn(&self->model, error);
-        self->salvo[i - 1] = self->model.rocket;
-        stuck_time = fmax(stuck_time, self->model.run.stuck_time);
+            status = model_check_drawn(self->model, error);
+        self->salvo[i - 1] = self->model->rocket;
+        stuck_time = fmax(stuck_time, self->model->run.stuck_time);
     }
-    self->model.run.stuck_time = stuck_time;
+    self->model->run.stuck_time = stuck_time;
     // a vehicle carries more rockets than are fired, which are as the scenario says
-    bool apart = rockets > 1 || model_has_vehicle(&self->model);
-    self->model.rocket = apart ? shared : self->salvo[0];
-    self->model.salvo = apart ? self->salvo : NULL;
-    model_complete(&self->model);
+    bool apart = rockets > 1 || model_has_vehicle(self->model);
+    self->model->rocket = apart ? shared : self->salvo[0];
+    self->model->salvo = apart ? self->salvo : NULL;
+    model_complete(self->model);
     return status;
 }

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
+#include "launchdyn/status.h"
 #include "model/fields/field.h"
-#include "model/model.h"
 
 // What is found once: where the factors' numbers are in a model, and their nominal values.
 typedef struct study_sampler {
@@ -21,8 +21,8 @@ ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error 
 void sampler_free(study_sampler *self);
 
 typedef struct study_sample {
-    ld_model model; // its tables are the nominal model's
-    ld_rocket salvo[LD_MAX_FIRINGS];
+    ld_model *model;         // its tables are the nominal model's
+    struct ld_rocket *salvo; // [LD_MAX_FIRINGS]
     double *drawn; // [of_sample] values of the sample, then [of_rocket] of each rocket fired
 } study_sample;
 

@@ -3,9 +3,12 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+#include "model/blocks/study.h"
+#include "model/parts.h"
+
 ld_status study_check(const ld_study *study, ld_error *error)
 {
-    if (study->nominal->scatter.present || study->nominal->sweep_count > 0)
+    if (model_scatter(study->nominal)->present || model_sweep_count(study->nominal) > 0)
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT,
                    "the scenario has neither scatter nor sweep: nothing to study");
@@ -26,7 +29,7 @@ static ld_status no_such_sample(int64_t number, int64_t last, ld_error *error)
 
 ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **out, ld_error *error)
 {
-    int samples = model->scatter.present ? model->scatter.samples : 1;
+    int samples = model_scatter(model)->present ? model_scatter(model)->samples : 1;
     if (number < 1 || number > samples)
         return no_such_sample(number, samples, error);
     ld_sample *self = calloc(1, sizeof *self);
@@ -54,13 +57,13 @@ ld_status ld_study_sample(const ld_study *study, int64_t number, ld_sample **sam
         return status;
     if (number < 1 || number > study->samples)
         return no_such_sample(number, study->samples, error);
-    return ld_sample_create(&study->model[study_point_of(study, number)],
+    return ld_sample_create(study->sampler[study_point_of(study, number)].nominal,
                             study_draw_of(study, number), sample, error);
 }
 
 const ld_model *ld_sample_model(const ld_sample *self)
 {
-    return &self->sample->model;
+    return self->sample->model;
 }
 
 void ld_sample_free(ld_sample *self)

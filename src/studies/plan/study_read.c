@@ -5,6 +5,7 @@
 
 #include "base/memory_stream.h"
 #include "model/fields/source.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "scenario/scenario.h"
 #include "studies/plan/study.h"

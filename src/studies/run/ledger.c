@@ -3,6 +3,7 @@
 #include <inttypes.h>
 #include <time.h>
 
+#include "model/parts.h"
 #include "studies/run/until.h"
 
 bool ledger_goes_on(void *self)
@@ -59,7 +60,7 @@ static void look_at_rule(study_ledger *self)
         self->last = counts->samples = self->look;
         status = store_set_samples(&self->store, self->last, &error);
     } else {
-        self->look = self->study->points * until_next_look(&self->study->nominal->scatter,
+        self->look = self->study->points * until_next_look(model_scatter(self->study->nominal),
                                                            self->look / self->study->points);
         counts->look = self->look;
     }
@@ -161,7 +162,7 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
         status = store_count(&self->store, counts, error);
     }
     counts->samples = self->last < self->next ? 0 : (self->last - self->next) / shards + 1;
-    const ld_scatter *scatter = &study->nominal->scatter;
+    const ld_scatter *scatter = model_scatter(study->nominal);
     self->look = self->last;
     self->decided = scatter->until_count == 0;
     if (!self->decided)

@@ -1,4 +1,6 @@
 // Samples side by side on the threads of one process.
+#include "model/blocks/study.h"
+#include "model/parts.h"
 #include "studies/run/ledger.h"
 
 #include "studies/run/worker.h"
@@ -7,7 +9,7 @@
 static ld_status check_shard(const ld_study *study, const ld_study_options *options,
                              ld_error *error)
 {
-    if (options->shards > 0 && study->nominal->scatter.until_count > 0)
+    if (options->shards > 0 && model_scatter(study->nominal)->until_count > 0)
         return ld_fail(error, LD_ERR_INPUT,
                        "scatter.until requires all samples, and a shard has its own only: run the "
                        "shards with --set scatter.until=, or run the study without shards");

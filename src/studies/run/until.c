@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "model/parts.h"
 #include "studies/store/study_data.h"
 
 int64_t until_next_look(const ld_scatter *scatter, int64_t samples)
@@ -32,7 +33,7 @@ static ld_status holds_for(const study_data *data, const ld_until *until, int64_
 ld_status until_holds(const ld_study *study, const char *folder, int64_t last, bool *holds,
                       ld_error *error)
 {
-    const ld_scatter *scatter = &study->nominal->scatter;
+    const ld_scatter *scatter = model_scatter(study->nominal);
     study_data data;
     *holds = true;
     ld_status status = study_data_open(folder, &data, error);

@@ -4,6 +4,7 @@
 #ifndef LD_STUDIES_UNTIL_H
 #define LD_STUDIES_UNTIL_H
 
+#include "model/blocks/study.h"
 #include "studies/plan/study.h"
 
 // Samples of each point after which the rule is looked at next: of 0, the first time.

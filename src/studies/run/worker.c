@@ -10,6 +10,8 @@
 
 #include "flight/flight_alone.h"
 #include "flight/flight_lanes.h"
+#include "model/blocks/firing.h"
+#include "model/parts.h"
 #include "quantities/study_results.h"
 #include "run/simulation_build.h"
 #include "state/simulation.h"
@@ -50,7 +52,7 @@ static bool may_go_on(void *self, double share)
 static ld_status run_sample(study_worker *self, permission *asked, ld_error *error)
 {
     ld_run_options options = {.self = asked, .progress = may_go_on};
-    ld_status status = simulation_renew(&self->simulation, &self->sample->model, error);
+    ld_status status = simulation_renew(&self->simulation, self->sample->model, error);
     return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
 }
 
@@ -71,14 +73,14 @@ static double result_of(const quantity_walk *at, const ld_model *model,
 // The numbers of the record: what was drawn and what came of it.
 static void fill_values(study_worker *self)
 {
-    const ld_model *model = &self->sample->model;
+    const ld_model *model = self->sample->model;
     const study_shape *shape = &self->record->shape;
     const double *drawn = self->sample->drawn;
     double *value = self->record->value;
     for (int k = 0; k < shape->of_sample; k++)
         *value++ = *drawn++;
-    for (int i = 0; i < model->firing_count; i++) {
-        *value++ = model->firing[i].tube;
+    for (int i = 0; i < model_firing_count(model); i++) {
+        *value++ = model_firing(model, i)->tube;
         for (int k = 0; k < shape->of_rocket; k++)
             *value++ = *drawn++;
         const ld_rocket_summary *rocket =
@@ -103,7 +105,7 @@ static void fill_record(study_worker *self, int64_t number, ld_status outcome,
     record->number = number;
     record->outcome = outcome;
     record->shape = self->study->shape;
-    record->shape.rockets = self->sample->model.firing_count;
+    record->shape.rockets = model_firing_count(self->sample->model);
     snprintf(record->reason, sizeof record->reason, "%s", outcome ? error->text : "");
     fill_values(self);
 }
@@ -155,7 +157,7 @@ static bool next_flight(void *user, int lane, lane_flight *flight)
         one->error = (ld_error){0};
         ld_status status = draw(worker, one->number, &one->error);
         if (!status)
-            status = simulation_renew(&worker->simulation, &worker->sample->model, &one->error);
+            status = simulation_renew(&worker->simulation, worker->sample->model, &one->error);
         if (!status) {
             ld_summary *summary = worker->summary;
             flight_alone_prepare(worker->simulation, &self->options, &flight->job, flight->state,
@@ -225,7 +227,7 @@ static ld_status run_one_by_one(study_ledger *ledger, ld_error *error)
 static bool has_launches(const ld_study *study)
 {
     int i = 0;
-    while (i < study->points && !model_has_launcher(&study->model[i]))
+    while (i < study->points && !model_has_launcher(study->sampler[i].nominal))
         i++;
     return i < study->points;
 }

@@ -9,6 +9,7 @@
 #include "launchdyn/origin.h"
 #include "launchdyn/version.h"
 #include "model/fields/source.h"
+#include "model/model.h"
 #include "scenario/scenario.h"
 #include "studies/store/store_check.h"
 #include "studies/store/store_tables.h"

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/blocks/study.h"
+#include "model/parts.h"
 #include "quantities/study_results.h"
 
 // "BEGIN, "name" COLUMN, ..., "name" COLUMNEND": between what all studies' have stand the columns
@@ -52,12 +54,12 @@ static ld_status finish(const char *path, sqlite3_str *text, char **whole, ld_er
 
 static bool is_of_rocket(const study_store *self, int factor)
 {
-    return self->study->nominal->scatter.factor[factor].per_rocket;
+    return model_scatter(self->study->nominal)->factor[factor].per_rocket;
 }
 
 static void append_factors(sqlite3_str *text, const study_store *self, int of)
 {
-    const ld_scatter *scatter = &self->study->nominal->scatter;
+    const ld_scatter *scatter = model_scatter(self->study->nominal);
     for (int i = 0; i < scatter->factor_count; i++)
         if (is_of_rocket(self, i) == (of == ROCKET))
             append_column(text, of, scatter->factor[i].path);
@@ -65,8 +67,8 @@ static void append_factors(sqlite3_str *text, const study_store *self, int of)
 
 static void append_swept(sqlite3_str *text, const study_store *self)
 {
-    for (int i = 0; i < self->study->nominal->sweep_count; i++)
-        append_column(text, POINT, self->study->nominal->sweep[i].path);
+    for (int i = 0; i < model_sweep_count(self->study->nominal); i++)
+        append_column(text, POINT, model_sweep(self->study->nominal, i)->path);
 }
 
 static void append_results(sqlite3_str *text, const study_store *self)

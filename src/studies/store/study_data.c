@@ -4,7 +4,9 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "model/fields/factor.h"
 #include "model/fields/field.h"
+#include "model/model.h"
 #include "quantities/study_results.h"
 #include "run/measures.h"
 #include "scenario/scenario.h"

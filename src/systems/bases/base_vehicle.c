@@ -6,6 +6,7 @@
 
 #include "math/functions.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "systems/bases/base.h"
 
 const vehicle_system *base_as_vehicle(const base_system *self)

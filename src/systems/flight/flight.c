@@ -3,6 +3,11 @@
 #include <string.h>
 
 #include "math/functions.h"
+#include "model/blocks/drag_devices.h"
+#include "model/blocks/flight.h"
+#include "model/blocks/motor.h"
+#include "model/blocks/rocket.h"
+#include "model/parts.h"
 #include "model/salvo.h"
 
 // ---- what is computed once
@@ -65,24 +70,24 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
 {
     const ld_rocket *flying = salvo_rocket(model, rocket);
     const ld_motor *thrust = &flying->motor;
+    const ld_environment *environment = model_environment(model);
     *self = (flight_system){.rocket = flying,
                             .thrust_point = v3_from(thrust->at),
                             .jet_damping = thrust->jet_damping == LD_JET_DAMPING_YES,
                             .parachutes = flying->parachute_count > 0,
-                            .ground = model->environment.ground_height,
-                            .has_ground = model->environment.ground == LD_GROUND_PLANE};
+                            .ground = environment->ground_height,
+                            .has_ground = environment->ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
     v3 direction = {1, thrust->misalignment[0], thrust->misalignment[1]};
     self->thrust_direction = v3_scale(1 / v3_norm(direction), direction);
-    ld_status status = atmosphere_build(&self->atmosphere, &model->environment.atmosphere, error);
+    ld_status status = atmosphere_build(&self->atmosphere, &environment->atmosphere, error);
     if (!status)
-        status = wind_build(&self->wind, &model->environment.wind, error);
+        status = wind_build(&self->wind, &environment->wind, error);
     if (!status)
         status = aerodynamics_build(&self->aerodynamics, &flying->aerodynamics, error);
     self->feels_air = self->aerodynamics.present || self->parachutes || flying->air_brakes.present;
     if (!status && self->wind.present && self->feels_air)
-        status =
-            turbulence_build(&self->turbulence, &model->environment.wind.turbulence, rocket, error);
+        status = turbulence_build(&self->turbulence, &environment->wind.turbulence, rocket, error);
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
     if (!status)
         status = motor_build(&self->motor, flying, error);

@@ -29,7 +29,9 @@
 #include "environment/turbulence.h"
 #include "environment/wind.h"
 #include "math/vectors/quaternion.h"
-#include "model/blocks/flight.h"
+
+struct ld_flight;
+struct ld_rocket;
 
 enum {
     FLIGHT_R = 0,
@@ -74,7 +76,7 @@ typedef struct flight_numbers {
 } flight_numbers;
 
 typedef struct flight_system {
-    const ld_rocket *rocket;
+    const struct ld_rocket *rocket;
     earth earth;
     atmosphere atmosphere;
     wind wind;
@@ -203,8 +205,8 @@ void flight_leave(const flight_system *self, const flight_phase *phase, double t
                   const double *state, flight_pose *pose);
 
 // The state that a flight alone begins with, at t = 0.
-void flight_start(const flight_system *self, const flight_phase *phase, const ld_flight *start,
-                  double *state);
+void flight_start(const flight_system *self, const flight_phase *phase,
+                  const struct ld_flight *start, double *state);
 
 // Mass centre against the ground, in I.
 earth_motion flight_center(const flight_system *self, double t, const double *state);

@@ -9,6 +9,7 @@
 #include "environment/earth_real.h"
 #include "math/real_sine_cosine.h"
 #include "math/vectors/real_vec3.h"
+#include "model/blocks/rocket.h"
 #include "systems/flight/flight.h"
 
 // A number of the flights, and three of them.

@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "model/model.h"
+#include "model/parts.h"
 #include "systems/launching/launching_dynamics.h"
 #include "systems/launching/launching_figures.h"
 #include "systems/launching/launching_overall.h"
@@ -45,7 +45,7 @@ void launcher_free_share(launcher_system *self)
 
 void launcher_select(launcher_system *self, int i)
 {
-    assert(i >= 0 && i < self->model->firing_count);
+    assert(i >= 0 && i < model_firing_count(self->model));
     self->base.tube = i;
 }
 

@@ -7,6 +7,7 @@
 #include "elements/tail.h"
 #include "elements/tube/tube_dynamics.h"
 #include "model/fields/field.h"
+#include "model/parts.h"
 #include "model/salvo.h"
 
 // ---- set-up ----
@@ -29,7 +30,7 @@ static void lay_out(launching_layout *at, int nq)
 void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 {
     self->rocket = rocket;
-    const ld_tubes *tubes = &self->model->tubes;
+    const ld_tubes *tubes = model_tubes(self->model);
     adaptors_build(rocket, &self->adaptors);
     surfaces_build(&tubes->guide, rocket, &self->surfaces);
     slot_build(&tubes->slot, rocket, &self->slot);
@@ -126,9 +127,10 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
                           ld_error *error)
 {
     memset(self, 0, sizeof *self);
+    const ld_tubes *tubes = model_tubes(model);
     self->model = model;
-    self->tubes = model->tubes;
-    self->tube.gravity = model->gravity;
+    self->tubes = *tubes;
+    self->tube.gravity = model_gravity(model);
     ld_status status = LD_OK;
     if (kept && kept->packed && same_tube(&kept->tubes, &self->tubes))
         use_tube(self, kept);
@@ -137,11 +139,11 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
     if (status)
         return status;
     lay_out(&self->layout, tube_mode_count(&self->tube.flexible));
-    tube_build_rows(model->tubes.support_count, &self->tube);
-    supports_build(&model->tubes, &self->tube, &self->supports);
-    tail_fold(&model->tubes.tail, &self->tube);
+    tube_build_rows(tubes->support_count, &self->tube);
+    supports_build(tubes, &self->tube, &self->supports);
+    tail_fold(&tubes->tail, &self->tube);
     self->work_count = works_of(model);
-    status = pressure_build(&model->tubes, &self->pressure, error);
+    status = pressure_build(tubes, &self->pressure, error);
     if (!status)
         status = build_cuts(self, error);
     if (status) {

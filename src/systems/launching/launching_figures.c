@@ -2,7 +2,7 @@
 
 #include "elements/tail.h"
 #include "elements/tube/tube_dynamics.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "systems/launching/launching_kinematics.h"
 
 void launching_find_loads(const launching_system *self, const launching_input *input,
@@ -33,7 +33,7 @@ double launching_kinetic_energy(const launching_system *self, const launching_in
     v3 v = v3_from(state + at->v), w_R = v3_from(state + at->w);
     double energy =
         tube_kinetic_energy(&self->tube.flexible, v, w_R, state + at->q, state + at->q_dot) +
-        tail_kinetic_energy(&self->model->tubes.tail, v, w_R);
+        tail_kinetic_energy(&model_tubes(self->model)->tail, v, w_R);
     if (phase->rocket) {
         launching_output out;
         launching_pose pose;
@@ -49,7 +49,7 @@ double launching_kinetic_energy(const launching_system *self, const launching_in
 double launching_potential_energy(const launching_system *self, const double *state)
 {
     const launching_layout *at = &self->layout;
-    const ld_tail *tail = &self->model->tubes.tail;
+    const ld_tail *tail = &model_tubes(self->model)->tail;
     v3 S = tube_first_moment(&self->tube.flexible, state + at->q);
     S.x += tail->mass * tail->center;
     m3 A_IR = q_matrix(q_from(state + at->quaternion));

@@ -1,7 +1,7 @@
 #include "systems/launching/launching_general.h"
 
 #include "math/matrices/dense.h"
-#include "model/model.h"
+#include "model/parts.h"
 
 static void flatten(const launching_system *self, const tube_force *force, double *h)
 {
@@ -101,7 +101,7 @@ void launching_store_tube(int n, const double *eta_dot, launching_output *out)
 static void add_tail(const launching_system *self, const tube_state *tube, int n, double *M2,
                      double *h2)
 {
-    const ld_tail *tail = &self->model->tubes.tail;
+    const ld_tail *tail = &model_tubes(self->model)->tail;
     v3 w = tube->w, g = tube->g, c = v3_make(tail->center, 0, 0);
     m3 J = m3_diagonal(self->tube.tail_inertia.x, self->tube.tail_inertia.y,
                        self->tube.tail_inertia.z);

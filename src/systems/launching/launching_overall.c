@@ -2,7 +2,7 @@
 
 #include "elements/tube/transfer.h"
 #include "math/matrices/dense.h"
-#include "model/model.h"
+#include "model/parts.h"
 #include "systems/launching/launching_dynamics.h"
 #include "systems/launching/launching_general.h"
 
@@ -82,7 +82,7 @@ typedef struct tube_transfer {
 static ld_status load_transfer(const launching_system *self, const launching_uncoupled *u,
                                int count, double B[][LD_TUBE_SPEEDS], tube_transfer *transfer)
 {
-    const ld_tail *tail = &self->model->tubes.tail;
+    const ld_tail *tail = &model_tubes(self->model)->tail;
     rigid_body body = {.mass = tail->mass,
                        .inertia =
                            m3_diagonal(tail->inertia[0], tail->inertia[1], tail->inertia[2])};
