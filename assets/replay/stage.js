@@ -143,9 +143,10 @@ export class Stage {
   }
   // Along its path a rocket is as long as can be seen, in pixels of the picture.
   enlarge() {
+    this.camera.updateMatrixWorld();
     this.flying.forEach((flight, i) => {
       if (!flight) return;
-      const far = this.camera.position.distanceTo(new Vector3(...subtract(flight.center, this.anchor)));
+      const far = -new Vector3(...subtract(flight.center, this.anchor)).applyMatrix4(this.camera.matrixWorldInverse).z;
       const times = this.view === "path" ? Math.max(1, AFAR / (this.pixels(far) * this.bodies[i].length)) : 1;
       this.bodies[i].enlarge(times);
     });
@@ -240,8 +241,10 @@ export class Stage {
   // Tangents of what the eye takes in where nothing else stands.
   field() {
     const half = Math.tan((FIELD * Math.PI) / 360), { clientHeight, clientWidth } = this.renderer.domElement;
-    const beside = (room) => half * Math.max(0.5, 1 - (2 * room) / (clientHeight || 400));
-    return { side: MARGIN * half * this.camera.aspect, up: beside(HEAD), down: beside(clientWidth < NARROW ? GAUGE : FOOT) };
+    const within = (room, size) => Math.max(0.5, 1 - (2 * room) / size), rocket = this.view === "path" ? AFAR / 2 : 0;
+    const beside = (room) => half * within(Math.max(room, rocket), clientHeight || 400);
+    return { side: Math.min(MARGIN, within(rocket, clientWidth || 400)) * half * this.camera.aspect,
+      up: beside(HEAD), down: beside(clientWidth < NARROW ? GAUGE : FOOT) };
   }
   // Eye and focus of a view that begins, from what it follows.
   begin(focus) {

@@ -49,6 +49,12 @@ function rest(...children) {
 
 const varied = results.filter(scatters), first = foremost(varied, MOST_FIRST);
 
+// Of a sweep of single runs: the foremost results that differ from point to point.
+function swept() {
+  const differs = ({ series }) => new Set(series.map((own) => own?.mean[0])).size > 1;
+  return varied.length ? [] : foremost(results.filter(differs), MOST_FIRST);
+}
+
 // What is not said of a part's results at first: plots of those that are not the foremost, how estimates settle.
 function partOf(part) {
   const own = varied.filter((result) => result.part === part), other = own.filter((result) => !first.includes(result));
@@ -96,7 +102,7 @@ host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeS
     ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 const notes = data.notes.map((note) => element("p", { className: "warning" }, note));
 const shots = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
-const told = first.length ? answer(data, first) : null, [shares, otherShares] = sensitivities();
+const listed = first.length ? first : swept(), told = listed.length ? answer(data, listed) : null, [shares, otherShares] = sensitivities();
 const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, { ...pair, title: marked(pair.y, pair.title, steep.length > 0) })).filter(Boolean);
 const lead = (title, plots, others) => // beside each other
   section("summary", title, ...notes, ...states(), element("div", { className: "lead" }, told, plots), others);

@@ -275,7 +275,7 @@ export function sensitivity(data, { name, series }) {
     count: bars.length,
     at: (i) => [bars[i].shares[0], bars[i].y + thick / 2 / row],
     reading: (i) => `${named(list, bars[i].of, bars[i].factor)}: ${withInterval(bars[i].shares)} %`,
-    note: left > 0 ? `${left} factors with smaller shares are not drawn` : "",
+    note: left > 0 ? `${left} ${left === 1 ? "factor with a smaller share is" : "factors with smaller shares are"} not drawn` : "",
     csv: () => csvOf(["series", "factor", ...["", ", low", ", high"].map((end) => `share of the variance of ${name}${end}`)],
       list.flatMap(({ own, series: of }) => own.map(([factor, values]) => [of.label, factor, ...values]))),
   });

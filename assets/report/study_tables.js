@@ -23,7 +23,7 @@ export function seriesName(series, index) {
 // How a result's numbers are said: to two digits of its deviation.
 function digitsOf(own, f) {
   const deviation = (own.deviation[0] ?? NaN) * f;
-  if (!(deviation > 0)) return (v) => readable(v * f, 4);
+  if (!(deviation > 0)) return (v) => readable(v * f, 4).replace(/^-/, "−");
   const decimals = Math.min(8, Math.max(0, 1 - Math.floor(Math.log10(deviation))));
   return (v) => fixed(v * f, decimals).replace("-", "−");
 }
@@ -52,7 +52,8 @@ export function answer(data, results) {
   const several = () => [element("tr", {}, head(""), ...results.map((result) => head(`${result.label}${result.unit ? ` [${result.unit}]` : ""}`))),
     ...data.series.map((series, i) => element("tr", {}, head(seriesName(series, i), "row"),
       ...results.map((result) => cell(meanAndDeviation(result.series[i], result.factor)))))];
-  const made = card("Mean and standard deviation", element("table", data.series.length === 1 ? { className: "one" } : {},
+  const single = results.every(({ series }) => series.every((own) => !(own?.deviation[0] > 0)));
+  const made = card(single ? "Results" : "Mean and standard deviation", element("table", data.series.length === 1 ? { className: "one" } : {},
     ...(data.series.length === 1 ? one() : several())));
   made.classList.add("answer");
   made.append(element("p", { className: "shown" }, keptLine(data)));

@@ -725,6 +725,20 @@ async function checkLooks(browser) {
   await leave(page);
 }
 
+// How far the rocket on its path is inside the picture where a flight begins and where it ends [pixels]; below 0: cut off.
+const roomAtEnds = (page) => page.evaluate(() => {
+  const replay = window.launchdyn.current, { stage, canvas, flights: [{ t }] } = replay;
+  return [t[0], t.at(-1)].map((time) => {
+    replay.show(time, true);
+    const [body] = stage.bodies;
+    body.group.updateMatrixWorld(true);
+    return Math.min(...[0.5, -0.5].flatMap((share) => {
+      const { x, y } = body.group.localToWorld(stage.camera.position.clone().set(share * body.length, 0, 0)).project(stage.camera);
+      return [0.5 * canvas.clientWidth * (1 - Math.abs(x)), 0.5 * canvas.clientHeight * (1 - Math.abs(y))];
+    }));
+  });
+});
+
 // A flight alone: its way, and the rocket where the results have it.
 async function checkFlight(browser) {
   console.log("flight.yaml");
@@ -734,6 +748,12 @@ async function checkFlight(browser) {
   const said = await page.textContent(".replay .reading");
   const views = await page.$$eval(".controls button[value]", (list) => list.map(({ value }) => value));
   check("it is looked at by its way and from beside it", views.join() === "rocket,path" && /height .* rocket enlarged/.test(said), `${views}: ${said}`);
+  for (const width of [1400, 1000, 500]) {
+    await page.setViewportSize({ width, height: 900 });
+    await drawn(page);
+    const room = await roomAtEnds(page);
+    check(`${width} pixels: the rocket is whole where its path begins and ends`, Math.min(...room) > 0, room);
+  }
   await page.keyboard.press("Tab");
   const rocket = await look(page, "replay.stage.paths[0].group.visible = replay.stage.bodies[0].group.visible = true; replay.look('rocket');");
   check("the rocket is seen", rocket.rocket > 500, rocket.rocket);

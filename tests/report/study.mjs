@@ -143,6 +143,8 @@ async function checkFirst(page, study) {
   check("the answer and the sensitivities stand first", heads.join() === "Answer and sensitivities,Scatter,Results,Numbers,Origin", heads);
   const bottom = await page.$eval(".lead", (node) => node.getBoundingClientRect().bottom);
   check("on the first screen", bottom < 900, bottom);
+  const tops = await page.$$eval(".lead .panel", (list) => list.map((node) => Math.round(node.getBoundingClientRect().top)));
+  check("three plots beside it stand in one row", tops.length !== 3 || new Set(tops).size === 1, tops);
   const rows = await page.$$eval(".answer tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
   const downrange = study.column.get("downrange"), mean = downrange.reduce((sum, v) => sum + v) / downrange.length;
   const deviation = Math.sqrt(downrange.reduce((sum, v) => sum + (v - mean) ** 2, 0) / (downrange.length - 1));
@@ -171,6 +173,21 @@ async function checkOne(browser, study) {
   await picture(page, "study.png");
   await leave(page);
   await checkInjected(browser, file);
+}
+
+// A sweep of single runs: what differs from point to point is the answer.
+async function checkSweep(browser) {
+  console.log("a sweep of single runs");
+  const scenario = join(folder, "sweep.yaml"), out = join(folder, "sweep"), masses = [55, 60, 65];
+  writeFileSync(scenario, `include: ${example("fixed.yaml")}\nsweep: {rocket.mass: [${masses.map((mass) => `${mass} kg`)}]}\n`);
+  launchdyn("study", scenario, "--out", out, "--quiet");
+  const page = await open(browser, reportOf("sweep.html", { out }), { width: 1400 });
+  const rows = await page.$$eval(".answer tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  const column = rows[0].indexOf("Exit speed, along the tube [m/s]"), speeds = masses.map((mass) =>
+    JSON.parse(launchdyn("run", example("fixed.yaml"), "--set", `rocket.mass=${mass} kg`, "--json")).rockets[0].muzzle_speed);
+  check("each point has a row with its values", rows.length === 4 && column > 0 && speeds.every((speed, i) => near(Number(rows[i + 1][column]), speed, 2e-4)), JSON.stringify(rows));
+  check("not called means", (await page.textContent(".answer h3")) === "Results");
+  await leave(page);
 }
 
 // Where nothing tells factors apart, clouds stand beside the answer, and fill the first screen with it at every width.
@@ -354,6 +371,7 @@ await inBrowser(async (browser) => {
     studyOf("fast", 150, { speed: "44 12.6 0 m/s" })];
   await checkOne(browser, studies[0]);
   await checkWithout(browser);
+  await checkSweep(browser);
   await checkFootprints(browser);
   await checkSideBySide(browser, studies);
   await checkColumns(browser, studies);
