@@ -89,9 +89,9 @@ static ld_status fly(ld_run *run, int i)
     if (model_run(model)->end == LD_END_TIME && run->flight.has_ground &&
         height < run->flight.ground) {
         summary_note(&run->summary,
-                     "the rocket of tube %d does not fly: it leaves the tube below the ground, its "
+                     "the rocket of %s %d does not fly: it leaves below the ground, its "
                      "mass centre at y = %.4g m",
-                     rocket->tube, height);
+                     model_guide_word(model), rocket->tube, height);
         return LD_OK;
     }
     free_flight job = {

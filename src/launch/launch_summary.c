@@ -239,23 +239,23 @@ static void note_measures(ld_run *run)
         for (int k = 0; k < model_measure_count(model); k++)
             if (isnan(run->summary.rocket[i].measure[k])) {
                 summary_note(&run->summary,
-                             "measure.%s of tube %d has no value: its window did not occur, or %s "
+                             "measure.%s of %s %d has no value: its window did not occur, or %s "
                              "is missing in a part of it",
-                             model_measure(model, k)->name, run->summary.rocket[i].tube,
-                             model_measure(model, k)->of);
+                             model_measure(model, k)->name, model_guide_word(model),
+                             run->summary.rocket[i].tube, model_measure(model, k)->of);
                 return;
             }
 }
 
 // Of the first rocket that leaves near the vertical.
-static void note_vertical(ld_summary *summary)
+static void note_vertical(const ld_model *model, ld_summary *summary)
 {
     for (int i = 0; i < summary->rocket_count; i++)
         if (near_vertical(summary->rocket[i].pitch)) {
             summary_note(summary,
-                         "the rocket of tube %d leaves near the vertical (pitch %.5g deg): yaw "
+                         "the rocket of %s %d leaves near the vertical (pitch %.5g deg): yaw "
                          "and rates of the ground frame are not meaningful; use since_ignition",
-                         summary->rocket[i].tube,
+                         model_guide_word(model), summary->rocket[i].tube,
                          summary->rocket[i].pitch * 180 / 3.14159265358979323846);
             return;
         }
@@ -285,9 +285,10 @@ void launch_summarise(ld_run *run)
     note_formulation(self, summary);
     for (int i = 0; i < summary->rocket_count; i++)
         if (summary->rocket[i].t_release < 0)
-            summary_note(summary, "the lock of tube %d released %.4g s before its ignition",
-                         summary->rocket[i].tube, -summary->rocket[i].t_release);
-    note_vertical(summary);
+            summary_note(summary, "the lock of %s %d released %.4g s before its ignition",
+                         model_guide_word(self->model), summary->rocket[i].tube,
+                         -summary->rocket[i].t_release);
+    note_vertical(self->model, summary);
     note_measures(run);
     exit_error_note(run);
     note_rests(summary);

@@ -427,9 +427,12 @@ static void test_words_of_the_guide(void **state)
     expect_in(shell.out, "\n  front shoe leaves   ");
     assert_int_equal(run("grep -icE 'tube|adaptor|slot' pad"), 1);
     assert_int_equal(run("launchdyn run examples/rail/tower.yaml --set run.end=tip | "
-                         "grep -E 'tower on its|tower, twist|of tower 1' | wc -l"),
+                         "grep -E 'tower on its|tower, twist|^Rocket of tower 1' | wc -l"),
                      0);
     assert_string_equal(shell.out, "3\n");
+    assert_int_equal(
+        run("launchdyn run examples/student-rocket/student-rocket.yaml --set run.end=tip"), 0);
+    expect_in(shell.out, "note: the rocket of rail 1 leaves near the vertical (pitch 89.8");
     // adaptors keep the names that the scenario gives them
     assert_int_equal(run("launchdyn run examples/rail/pad.yaml --set run.end=tip --set "
                          "'rocket.adaptors=[{name: tube, at: 0 m}, {name: "

@@ -313,7 +313,7 @@ static void test_failures(void **state)
         "rocket: {mass: 10 kg, inertia: 1 1 1 kg.m2, aerodynamics: {reference_diameter: 0.1 m,\n"
         "  table: [[0, 0, 0, 0, 0 m, 0, 0, 0], [0.3, 0, 0, 0, 0 m, 0, 0, 0]]}}\n"
         "flight: {position: 0 3000 0 m, velocity: 80 0 0 m/s}\n",
-        "rocket.aerodynamics.table: ends at Mach 0.3, beyond which the rocket goes at t = ");
+        "rocket.aerodynamics.table: ends at Mach 0.3; the rocket exceeds it at t = ");
 }
 
 // A start on the ground, upwards and downwards; a flight of one long step.
