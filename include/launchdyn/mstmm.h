@@ -1,5 +1,5 @@
-/// Multibody systems by the transfer matrix method: chains and trees of rigid bodies, beams and
-/// hinges at acceleration level, order N.
+/// Multibody systems by the transfer matrix method: chains, trees and closed loops of rigid bodies,
+/// beams and hinges at acceleration level, order N.
 ///
 /// A system is described by a list of elements. An element is a body (rigid, or a beam) together
 /// with the hinge that carries it on its parent: another element, or the ground. The body's frame
@@ -18,12 +18,17 @@
 ///   free         position of the body's origin in the hinge     its rate (3), angular velocity
 ///                frame (3), quaternion as above (4)             relative to the parent, body axes
 ///                (3)
+///   planar       displacements along axis_2 and along axis x axis_2, angle about axis (the plane's
+///                normal)                                         their rates
 /// A beam's modal coordinates q_y, q_z, q_t, q_a (and their rates) follow those of its hinge.
 /// Generalised forces tau belong to the speeds: their power is tau . u. They act on the body and
-/// with opposite sign on its parent.
+/// with opposite sign on its parent. Of a prescribed hinge, tau is what its speeds' rates are: the
+/// motion is given (q and u by the caller), the force it needs is found (ld_mstmm_forces). A ground
+/// that moves is an element without mass on a prescribed free hinge.
 ///
-/// A system holds its workspace: use one per thread. Nothing is allocated after ld_mstmm_create
-/// but in ld_mstmm_accelerations_overall, ld_mstmm_vibration and ld_mstmm_integrate.
+/// A system holds its workspace: use one per thread (ld_mstmm_copy). Nothing is allocated after
+/// ld_mstmm_create but in ld_mstmm_copy, ld_mstmm_accelerations_overall, ld_mstmm_vibration and
+/// ld_mstmm_integrate.
 #ifndef LAUNCHDYN_MSTMM_H
 #define LAUNCHDYN_MSTMM_H
 
@@ -47,6 +52,7 @@ typedef enum ld_hinge {
     LD_HINGE_UNIVERSAL,
     LD_HINGE_SPHERICAL,
     LD_HINGE_FREE,
+    LD_HINGE_PLANAR,
 } ld_hinge;
 
 /// A flexible tube or beam of round sections (equal second moments in both planes) along its body
@@ -72,16 +78,19 @@ typedef struct ld_mstmm_element {
     double attitude[4]; ///< quaternion, hinge frame to parent's axes (any length); zeros: parallel
     ld_hinge hinge;
     double axis[3];      ///< in the hinge frame (any length)
-    double axis_2[3];    ///< universal: second axis, turned by the first angle
+    double axis_2[3];    ///< universal: second axis, turned by the first angle; planar: a direction
+                         ///< in the plane (its part along axis is taken out)
     double stiffness[6]; ///< of springs in the hinge, one per speed [N m/rad] or [N/m]; spherical
                          ///< and free: against the rotation vector in body axes
     double damping[6];   ///< of dampers in the hinge, one per speed
-    double rest[2];      ///< coordinates without spring force (hinges with one or two axes)
-    double mass;         ///< [kg]
+    double rest[2];      ///< coordinates without spring force (hinges with one or two axes, planar:
+                         ///< its displacements)
+    double mass;         ///< [kg] 0 at an end: a frame, welded or on a prescribed hinge
     double center[3];    ///< [m] mass centre, body axes
     double inertia[6];   ///< [kg m2] matrix elements xx yy zz xy xz yz about the mass centre
     const ld_mstmm_beam *beam; ///< not NULL: the body is this beam (mass, center, inertia unused)
-    const void *reserved[4];   ///< NULL: room for what later versions may be asked
+    int prescribed;            ///< other than 0: the hinge's motion is given, tau its accelerations
+    const void *reserved[3];   ///< NULL: room for what later versions may be asked
 } ld_mstmm_element;
 
 /// Builds a system in a uniform gravity field [m/s2]. Fails with a sentence that names the element:
@@ -90,6 +99,9 @@ typedef struct ld_mstmm_element {
 ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const double gravity[3],
                           ld_mstmm **out, ld_error *error);
 void ld_mstmm_free(ld_mstmm *system);
+/// The same system with a workspace of its own, for another thread; it shares what is constant.
+/// Either may be freed first.
+ld_status ld_mstmm_copy(const ld_mstmm *system, ld_mstmm **out, ld_error *error);
 
 /// Number of elements; length of q and of u.
 int ld_mstmm_element_count(const ld_mstmm *system);
@@ -114,6 +126,11 @@ ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double
 /// Inverse dynamics: the hinge forces `tau` that make `u_dot` (on top of springs and dampers).
 void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
                      const double *wrench, double *tau);
+
+/// What every hinge transmits to its body while `u_dot` holds: force, then moment about the hinge's
+/// point on the body (its frame's origin), inertial axes; 6 for each element.
+void ld_mstmm_reactions(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
+                        const double *wrench, double *reaction);
 
 typedef enum ld_mstmm_form {
     LD_MSTMM_PAPER,  ///< each hinge acceleration eliminated by the next hinge's equation
@@ -158,6 +175,12 @@ typedef struct ld_mstmm_point {
 ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *u, int element,
                                const double at[3]);
 
+/// Acceleration [m/s2] of the point `at` of an element and angular acceleration [rad/s2] of the
+/// body (or section) while `u_dot` holds, inertial axes.
+void ld_mstmm_point_acceleration(ld_mstmm *system, const double *q, const double *u,
+                                 const double *u_dot, int element, const double at[3],
+                                 double linear[3], double angular[3]);
+
 /// Rates of the coordinates q from the speeds u.
 void ld_mstmm_rates(const ld_mstmm *system, const double *q, const double *u, double *q_dot);
 
@@ -175,9 +198,13 @@ typedef struct ld_mstmm_mode {
 ld_status ld_mstmm_vibration(ld_mstmm *system, const double *q, const double *tau,
                              ld_mstmm_mode *modes, double *shapes, int *count, ld_error *error);
 
-/// Drive forces at an instant: fills tau [speed_count] and wrench [6 per element], zero on entry.
+/// Drive forces at an instant: fills tau [speed_count] and wrench [6 per element], zero on entry
+/// but for what `motion` has given. It may ask the system for places and motions.
 typedef void (*ld_mstmm_drive)(double t, const double *q, const double *u, double *tau,
                                double *wrench, void *context);
+/// Motion of the prescribed hinges at an instant: writes their coordinates into q, their speeds
+/// into u and the speeds' rates into u_dot; the other entries are to be left alone.
+typedef void (*ld_mstmm_motion)(double t, double *q, double *u, double *u_dot, void *context);
 /// Receives the state at every output instant; other than 0 stops the integration.
 typedef int (*ld_mstmm_sink)(double t, const double *q, const double *u, void *context);
 
@@ -187,7 +214,8 @@ typedef struct ld_mstmm_settings {
     ld_mstmm_drive drive; ///< NULL: no drive forces
     ld_mstmm_sink sink;   ///< NULL: none
     void *context;
-    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+    ld_mstmm_motion motion;  ///< NULL: prescribed hinges move as they start
+    const void *reserved[3]; ///< NULL: room for what later versions may be asked
 } ld_mstmm_settings;
 
 typedef struct ld_mstmm_statistics {

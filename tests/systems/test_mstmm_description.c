@@ -56,6 +56,12 @@ static void test_bad_descriptions(void **state)
     e[1] = body("b", "a");
     e[2].mass = 0;
     refused(e, 3, "element 'c': an end body without mass");
+    // a frame may hang on a body, but what turns needs mass
+    e[2].hinge = LD_HINGE_WELD;
+    e[1].mass = 0;
+    refused(e, 3, "element 'b': an end body without mass");
+    e[1].mass = 2;
+    e[2].hinge = LD_HINGE_REVOLUTE;
     e[2].mass = -1;
     refused(e, 3, "element 'c': its mass is negative (-1 kg)");
     e[2].mass = NAN;
@@ -79,6 +85,8 @@ static void test_bad_descriptions(void **state)
     refused(e, 3, "element 'c': its universal hinge needs two axes");
     e[2].axis_2[2] = 2;
     refused(e, 3, "element 'c': the two axes of its universal hinge are parallel");
+    e[2].hinge = LD_HINGE_PLANAR;
+    refused(e, 3, "element 'c': the two axes of its planar hinge are parallel");
     e[2] = body("c", "b");
     e[2].hinge = (ld_hinge)77;
     refused(e, 3, "element 'c': no such hinge");

@@ -139,7 +139,9 @@ typedef struct specimen {
     double gravity[3], q[8 * BODIES], u[SPEEDS], tau[SPEEDS], wrench[6 * BODIES];
 } specimen;
 
-static const int coordinates_of[] = {0, 1, 1, 2, 2, 4, 7}, speeds_of[] = {0, 1, 1, 2, 2, 3, 6};
+enum { KINDS = LD_HINGE_PLANAR + 1 };
+static const int coordinates_of[] = {0, 1, 1, 2, 2, 4, 7, 3},
+                 speeds_of[] = {0, 1, 1, 2, 2, 3, 6, 3};
 
 static void fill(double *x, int n, double size, uint64_t *seed)
 {
@@ -152,7 +154,8 @@ static int pick(int n, uint64_t *seed)
     return (int)((draw(seed) + 1) / 2 * n);
 }
 
-static void draw_tree(specimen *s, uint64_t *seed)
+// Hinges of the first `kinds` kinds.
+static void draw_tree(specimen *s, int kinds, uint64_t *seed)
 {
     memset(s, 0, sizeof *s);
     s->count = 2 + pick(BODIES - 1, seed);
@@ -162,7 +165,7 @@ static void draw_tree(specimen *s, uint64_t *seed)
         s->parent[i] = i == 0 || pick(8, seed) == 0 ? -1 : pick(i, seed);
         e->name = s->name[i];
         e->parent = s->parent[i] >= 0 ? s->name[s->parent[i]] : NULL;
-        e->hinge = (ld_hinge)pick(7, seed);
+        e->hinge = (ld_hinge)pick(kinds, seed);
         fill(e->at, 3, 0.5, seed);
         fill(e->attitude, 4, 1, seed);
         fill(e->axis, 3, 1, seed);
@@ -190,6 +193,31 @@ typedef struct moving {
     jet3 origin, center;
     jet33 R;
 } moving;
+
+// Displacements along axis_2, less its part along the normal, and along normal x that.
+static jet3 in_plane(const ld_mstmm_element *e, const double *q, const double *v)
+{
+    real z[3], x[3], normal = 0, along = 0, size = 0;
+    for (int k = 0; k < 3; k++)
+        normal += (real)e->axis[k] * e->axis[k];
+    for (int k = 0; k < 3; k++) {
+        z[k] = e->axis[k] / sqrtl(normal);
+        along += z[k] * e->axis_2[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        x[k] = e->axis_2[k] - along * z[k];
+        size += x[k] * x[k];
+    }
+    for (int k = 0; k < 3; k++)
+        x[k] /= sqrtl(size);
+    jet3 slide;
+    memset(&slide, 0, sizeof slide);
+    for (int k = 0; k < 3; k++) {
+        real y = z[(k + 1) % 3] * x[(k + 2) % 3] - z[(k + 2) % 3] * x[(k + 1) % 3];
+        slide.a[k] = (jet){{q[0] * x[k] + q[1] * y, v[0] * x[k] + v[1] * y, 0}};
+    }
+    return slide;
+}
 
 // Poses of all bodies along the path with constant speeds u (rates of what u means).
 static void trace(const specimen *s, const double *u, moving *body)
@@ -230,6 +258,10 @@ static void trace(const specimen *s, const double *u, moving *body)
             for (int k = 0; k < 3; k++)
                 slide.a[k] = (jet){{q[k], v[k], 0}};
             own = ball(q + 3, v + 3);
+            break;
+        case LD_HINGE_PLANAR:
+            slide = in_plane(e, q, v);
+            own = turn(e->axis, q[2], v[2]);
             break;
         }
         body[i].origin =
@@ -365,20 +397,26 @@ static real solve(int n, real M[SPEEDS][SPEEDS], const real *h, real *x)
     return norm * inverse_norm;
 }
 
-static void test_reduced_sweep_is_the_dense_solve(void **state)
+// Largest differences over a number of random trees.
+typedef struct differences {
+    double conditioned, plain;     // of the accelerations, over the condition and as they are
+    double back, back_conditioned; // of the forces that inverse dynamics gives back
+    double condition;              // the largest one
+    int largest;                   // speeds of the largest tree
+} differences;
+
+static differences compare_trees(int kinds, uint64_t seed)
 {
-    (void)state;
     static specimen s;
     static real M[SPEEDS][SPEEDS];
-    uint64_t seed = 2026;
-    int hinges[7] = {0}, largest = 0;
-    double worst = 0, worst_plain = 0, worst_back = 0, worst_condition = 0;
+    int hinges[KINDS] = {0};
+    differences all = {0};
     for (int tree = 0; tree < TREES; tree++) {
         ld_mstmm *system;
         ld_error error = {0};
         real h[SPEEDS], expected[SPEEDS];
         double u_dot[SPEEDS], tau[SPEEDS], size = 0, off = 0, force = 0, back = 0;
-        draw_tree(&s, &seed);
+        draw_tree(&s, kinds, &seed);
         for (int i = 0; i < s.count; i++)
             hinges[s.element[i].hinge]++;
         if (ld_mstmm_create(s.element, s.count, s.gravity, &system, &error))
@@ -399,23 +437,150 @@ static void test_reduced_sweep_is_the_dense_solve(void **state)
         ld_mstmm_free(system);
         if (!s.u_count)
             continue;
-        largest = s.u_count > largest ? s.u_count : largest;
-        worst = fmax(worst, off / size / condition);
-        worst_plain = fmax(worst_plain, off / size);
-        worst_back = fmax(worst_back, back / force);
-        worst_condition = fmax(worst_condition, condition);
+        all.largest = s.u_count > all.largest ? s.u_count : all.largest;
+        all.conditioned = fmax(all.conditioned, off / size / condition);
+        all.plain = fmax(all.plain, off / size);
+        all.back = fmax(all.back, back / force);
+        all.back_conditioned = fmax(all.back_conditioned, back / force / condition);
+        all.condition = fmax(all.condition, condition);
     }
-    for (int i = 0; i < 7; i++)
+    for (int i = 0; i < kinds; i++)
         assert_true(hinges[i] > 300);
-    printf("    %d trees, up to %d speeds, condition up to %.1e\n", TREES, largest,
-           worst_condition);
-    CHECK_BELOW("accelerations, relative, over the condition", worst, 6e-15);
-    CHECK_BELOW("accelerations, relative", worst_plain, 2e-13);
-    CHECK_BELOW("inverse(forward) gives the forces back, relative", worst_back, 1e-12);
+    printf("    %d trees, up to %d speeds, condition up to %.1e\n", TREES, all.largest,
+           all.condition);
+    return all;
+}
+
+static void test_reduced_sweep_is_the_dense_solve(void **state)
+{
+    (void)state;
+    differences seven = compare_trees(7, 2026);
+    CHECK_BELOW("accelerations, relative, over the condition", seven.conditioned, 6e-15);
+    CHECK_BELOW("accelerations, relative", seven.plain, 2e-13);
+    CHECK_BELOW("inverse(forward) gives the forces back, relative", seven.back, 1e-12);
+    differences all = compare_trees(KINDS, 2027);
+    CHECK_BELOW("planar hinges too: accelerations, over the condition", all.conditioned, 6e-15);
+    CHECK_BELOW("planar hinges too: forces, over the condition", all.back_conditioned, 6e-15);
+}
+
+// Some hinges prescribed: with their accelerations given the others' are those of the dense
+// equations' free rows, and the forces found are what the prescribed rows need.
+static void test_prescribed_hinges(void **state)
+{
+    (void)state;
+    static specimen s;
+    static real M[SPEEDS][SPEEDS], reduced[SPEEDS][SPEEDS];
+    uint64_t seed = 77;
+    double worst = 0, worst_force = 0;
+    int given_kinds[KINDS] = {0};
+    for (int tree = 0; tree < TREES / 4; tree++) {
+        ld_mstmm *system, *copy;
+        real h[SPEEDS], b[SPEEDS], x[SPEEDS], expected[SPEEDS];
+        double u_dot[SPEEDS], again[SPEEDS], tau[SPEEDS], size = 0, off = 0, force = 0, missed = 0;
+        int open[SPEEDS], count = 0;
+        draw_tree(&s, KINDS, &seed);
+        for (int i = 0; i < s.count; i++) {
+            s.element[i].prescribed = pick(3, &seed) == 0;
+            given_kinds[s.element[i].hinge] += s.element[i].prescribed;
+            for (int k = 0; k < speeds_of[s.element[i].hinge] && !s.element[i].prescribed; k++)
+                open[count++] = s.u_at[i] + k;
+        }
+        assert_int_equal(ld_mstmm_create(s.element, s.count, s.gravity, &system, NULL), LD_OK);
+        assert_int_equal(ld_mstmm_copy(system, &copy, NULL), LD_OK);
+        assert_int_equal(ld_mstmm_accelerations(system, s.q, s.u, s.tau, s.wrench, u_dot, NULL),
+                         LD_OK);
+        ld_mstmm_free(system);
+        assert_int_equal(ld_mstmm_accelerations(copy, s.q, s.u, s.tau, s.wrench, again, NULL),
+                         LD_OK);
+        assert_memory_equal(u_dot, again, (size_t)s.u_count * sizeof *u_dot);
+        ld_mstmm_forces(copy, s.q, s.u, u_dot, s.wrench, tau);
+        ld_mstmm_free(copy);
+
+        // h holds tau: what stands there for the prescribed rows is an acceleration
+        assemble(&s, M, h);
+        for (int k = 0; k < s.u_count; k++)
+            expected[k] = s.tau[k];
+        for (int k = 0; k < count; k++)
+            expected[open[k]] = 0;
+        for (int k = 0; k < count; k++) {
+            b[k] = h[open[k]];
+            for (int l = 0; l < s.u_count; l++)
+                b[k] -= M[open[k]][l] * expected[l];
+            for (int l = 0; l < count; l++)
+                reduced[k][l] = M[open[k]][open[l]];
+        }
+        real condition = count ? solve(count, reduced, b, x) : 1;
+        for (int k = 0; k < count; k++)
+            expected[open[k]] = x[k];
+        for (int k = 0; k < s.u_count; k++) {
+            real need = s.tau[k] - h[k];
+            for (int l = 0; l < s.u_count; l++)
+                need += M[k][l] * expected[l];
+            size = fmax(size, fabs((double)expected[k]));
+            off = fmax(off, fabs((double)(u_dot[k] - expected[k])));
+            force = fmax(force, fabs((double)need));
+            missed = fmax(missed, fabs((double)(tau[k] - need)));
+        }
+        if (s.u_count) {
+            worst = fmax(worst, off / size / (double)condition);
+            worst_force = fmax(worst_force, missed / force / (double)condition);
+        }
+    }
+    for (int i = 0; i < KINDS; i++)
+        assert_true(given_kinds[i] > 20);
+    CHECK_BELOW("prescribed hinges: accelerations, over the condition", worst, 6e-15);
+    CHECK_BELOW("prescribed hinges: forces, over the condition", worst_force, 6e-15);
+}
+
+// Accelerations of points against the second derivatives of their positions, reactions against
+// Newton's law of what hangs on a hinge.
+static void test_points_and_reactions(void **state)
+{
+    (void)state;
+    static specimen s;
+    static moving now[BODIES];
+    uint64_t seed = 5;
+    double worst = 0, worst_force = 0;
+    for (int tree = 0; tree < TREES / 4; tree++) {
+        ld_mstmm *system;
+        const double none[SPEEDS] = {0};
+        double reaction[6 * BODIES], carried[BODIES][3] = {{0}}, size = 1e-9, at[3];
+        draw_tree(&s, KINDS, &seed);
+        fill(at, 3, 1, &seed);
+        assert_int_equal(ld_mstmm_create(s.element, s.count, s.gravity, &system, NULL), LD_OK);
+        // with u_dot = 0 the speeds are constant: the path of trace()
+        trace(&s, s.u, now);
+        ld_mstmm_reactions(system, s.q, s.u, none, s.wrench, reaction);
+        for (int i = s.count - 1; i >= 0; i--) {
+            double linear[3], angular[3];
+            real w[3], alpha[3];
+            jet3 point = add3(now[i].origin, apply33(now[i].R, constant3(at)));
+            rotation_rates(&now[i].R, w, alpha);
+            ld_mstmm_point_acceleration(system, s.q, s.u, none, i, at, linear, angular);
+            for (int a = 0; a < 3; a++) {
+                worst = fmax(worst, fabs(linear[a] - (double)(2 * point.a[a].c[2])));
+                worst = fmax(worst, fabs(angular[a] - (double)alpha[a]));
+                carried[i][a] +=
+                    s.element[i].mass * ((double)(2 * now[i].center.a[a].c[2]) - s.gravity[a]) -
+                    s.wrench[6 * i + a];
+                size = fmax(size, fabs(carried[i][a]));
+                worst_force = fmax(worst_force, fabs(reaction[6 * i + a] - carried[i][a]) / size);
+                if (s.parent[i] >= 0)
+                    carried[s.parent[i]][a] += carried[i][a];
+            }
+        }
+        ld_mstmm_free(system);
+    }
+    CHECK_BELOW("accelerations of points [m/s2, rad/s2]", worst, 1e-12);
+    CHECK_BELOW("forces in the hinges, relative", worst_force, 1e-13);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_reduced_sweep_is_the_dense_solve)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reduced_sweep_is_the_dense_solve),
+        cmocka_unit_test(test_prescribed_hinges),
+        cmocka_unit_test(test_points_and_reactions),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

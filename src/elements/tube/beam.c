@@ -37,6 +37,14 @@ static ld_status check(const ld_mstmm_beam *given, const char *name, ld_error *e
     return LD_OK;
 }
 
+static bool allocate(beam *self)
+{
+    self->M = calloc((size_t)self->n * (size_t)self->n, sizeof *self->M);
+    self->h = calloc((size_t)self->n, sizeof *self->h);
+    self->eta_dot = calloc((size_t)self->n, sizeof *self->eta_dot);
+    return self->M && self->h && self->eta_dot;
+}
+
 ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, ld_error *error)
 {
     memset(self, 0, sizeof *self);
@@ -63,12 +71,22 @@ ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, 
         return ld_fail(error, status, "element '%s': %s", name, reason.text);
     self->modes = tube_mode_count(&self->tube);
     self->n = 6 + self->modes;
-    self->M = calloc((size_t)self->n * (size_t)self->n, sizeof *self->M);
-    self->h = calloc((size_t)self->n, sizeof *self->h);
-    self->eta_dot = calloc((size_t)self->n, sizeof *self->eta_dot);
-    if (!self->M || !self->h || !self->eta_dot)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for a beam");
-    return LD_OK;
+    return allocate(self) ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a beam");
+}
+
+bool beam_copy(beam *self, const beam *from)
+{
+    *self = *from;
+    self->output = NULL;
+    size_t bytes = (size_t)from->output_count * sizeof *from->output;
+    bool whole = allocate(self);
+    if (from->output_count > 0) {
+        self->output = malloc(bytes);
+        if (self->output)
+            memcpy(self->output, from->output, bytes);
+        whole &= self->output != NULL;
+    }
+    return whole;
 }
 
 int beam_add_output(beam *self, double station)
@@ -82,9 +100,10 @@ int beam_add_output(beam *self, double station)
     return self->output_count++;
 }
 
-void beam_free(beam *self)
+void beam_free(beam *self, bool last)
 {
-    flexible_tube_free(&self->tube);
+    if (last)
+        flexible_tube_free(&self->tube);
     free(self->output);
     free(self->M);
     free(self->h);
@@ -238,9 +257,8 @@ spatial beam_momentum(const beam *self, v3 v, const double *q_dot)
     return (spatial){v3_from(p), v3_from(p + 3)};
 }
 
-spatial beam_output_acceleration(const beam *self, int output)
+spatial beam_section_acceleration(const beam *self, const tube_section_state *section)
 {
-    const tube_section_state *section = &self->output[output].section;
     double x[6];
     for (int i = 0; i < 6; i++) {
         x[i] = section->gamma[i];
@@ -248,4 +266,9 @@ spatial beam_output_acceleration(const beam *self, int output)
             x[i] += section->L[i * self->n + k] * self->eta_dot[k];
     }
     return (spatial){v3_from(x), v3_from(x + 3)};
+}
+
+spatial beam_output_acceleration(const beam *self, int output)
+{
+    return beam_section_acceleration(self, &self->output[output].section);
 }

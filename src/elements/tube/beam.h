@@ -3,6 +3,8 @@
 #ifndef LD_ELEMENTS_BEAM_H
 #define LD_ELEMENTS_BEAM_H
 
+#include <stdbool.h>
+
 #include "elements/tube/tube_dynamics.h"
 #include "launchdyn/mstmm.h"
 #include "math/vectors/spatial.h"
@@ -29,7 +31,10 @@ typedef struct beam {
 ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, ld_error *error);
 // Adds an output section, returns its index or -1 without memory.
 int beam_add_output(beam *self, double station);
-void beam_free(beam *self);
+// Frees the workspace, and the tube where `last` says that no copy shares it.
+void beam_free(beam *self, bool last);
+// A workspace of its own beside another beam's tube; false without memory (free it all the same).
+bool beam_copy(beam *self, const beam *from);
 
 // M, h and the output sections for angular velocity w of R, in R. Gravity enters as an acceleration
 // of the whole system, not here.
@@ -57,7 +62,8 @@ spatial beam_carry(beam *self, int output, spatial F);
 // origin in R.
 spatial beam_momentum(const beam *self, v3 v, const double *q_dot);
 
-// [a; alpha] of an output section, in R, from eta_dot.
+// [a; alpha] of a section, and of an output section, in R, from eta_dot.
+spatial beam_section_acceleration(const beam *self, const tube_section_state *section);
 spatial beam_output_acceleration(const beam *self, int output);
 
 #endif

@@ -12,23 +12,47 @@ typedef struct run {
     const ld_mstmm_settings *settings;
     int q_count, u_count, wrench_count;
     double *tau, *wrench, *state, *atol;
+    double *moved; // (q, u) with what is prescribed
     ld_error failure;
 } run;
+
+// Writes the prescribed motion into a state; its rates are the first part of tau.
+static void prescribe(run *r, double t, double *y)
+{
+    memset(r->tau, 0, (size_t)r->u_count * sizeof *r->tau);
+    if (r->settings->motion)
+        r->settings->motion(t, y, y + r->q_count, r->tau, r->settings->context);
+}
 
 static int derivative(double t, const double *y, double *y_dot, void *self)
 {
     run *r = self;
-    const double *q = y, *u = y + r->q_count;
-    const double *tau = NULL, *wrench = NULL;
-    if (r->settings->drive) {
+    const double *wrench = NULL;
+    if (r->settings->motion) {
+        memcpy(r->moved, y, (size_t)(r->q_count + r->u_count) * sizeof *y);
+        prescribe(r, t, r->moved);
+        y = r->moved;
+    } else if (r->settings->drive) {
         memset(r->tau, 0, (size_t)r->u_count * sizeof *r->tau);
+    }
+    const double *q = y, *u = y + r->q_count;
+    if (r->settings->drive) {
         memset(r->wrench, 0, (size_t)r->wrench_count * sizeof *r->wrench);
         r->settings->drive(t, q, u, r->tau, r->wrench, r->settings->context);
-        tau = r->tau;
         wrench = r->wrench;
     }
+    const double *tau = r->settings->motion || r->settings->drive ? r->tau : NULL;
     ld_mstmm_rates(r->system, q, u, y_dot);
     return ld_mstmm_accelerations(r->system, q, u, tau, wrench, y_dot + r->q_count, &r->failure);
+}
+
+// A step's end gets what is prescribed.
+static int settle(double t, double *y, void *self)
+{
+    run *r = self;
+    if (r->settings->motion)
+        prescribe(r, t, y);
+    return 0;
 }
 
 static ld_status advance(run *r, integrator *stepper, double t_0, double t_1, ld_error *error)
@@ -71,15 +95,17 @@ ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings
         return ld_fail(error, LD_ERR_INPUT,
                        n ? "the end lies before the start"
                          : "a system without hinges does not move");
-    double *block = calloc(2 * n + nu + (size_t)r.wrench_count, sizeof *block);
+    double *block = calloc(3 * n + nu + (size_t)r.wrench_count, sizeof *block);
     if (!block)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for an integration");
     r.state = block;
     r.atol = block + n;
-    r.tau = block + 2 * n;
+    r.moved = block + 2 * n;
+    r.tau = block + 3 * n;
     r.wrench = r.tau + nu;
     memcpy(r.state, q, nq * sizeof *q);
     memcpy(r.state + nq, u, nu * sizeof *u);
+    settle(t_0, r.state, &r);
     for (size_t i = 0; i < n; i++)
         r.atol[i] = settings->atol > 0 ? settings->atol : 1e-8;
 
@@ -89,6 +115,7 @@ ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings
                                        .rtol = settings->rtol > 0 ? settings->rtol : 1e-8,
                                        .atol = r.atol,
                                        .rhs = derivative,
+                                       .project = settings->motion ? settle : NULL,
                                        .self = &r};
     ld_status status = integrator_create(&setup, &stepper, error);
     if (!status)

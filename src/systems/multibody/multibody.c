@@ -1,4 +1,4 @@
-// Building a system: the description checked and turned into nodes, parents before children.
+// Building a system: the description turned into nodes, parents before children.
 #include "systems/multibody/multibody.h"
 
 #include <math.h>
@@ -6,220 +6,7 @@
 #include <string.h>
 
 #include "math/vectors/quaternion.h"
-
-// ---- hinges
-
-static const struct {
-    const char *name;
-    int coordinates, speeds, axes; // axes that the description must give
-} hinge_table[] = {
-    [LD_HINGE_WELD] = {"weld", 0, 0, 0},
-    [LD_HINGE_REVOLUTE] = {"revolute", 1, 1, 1},
-    [LD_HINGE_PRISMATIC] = {"prismatic", 1, 1, 1},
-    [LD_HINGE_CYLINDRICAL] = {"cylindrical", 2, 2, 1},
-    [LD_HINGE_UNIVERSAL] = {"universal", 2, 2, 2},
-    [LD_HINGE_SPHERICAL] = {"spherical", 4, 3, 0},
-    [LD_HINGE_FREE] = {"free", 7, 6, 0},
-};
-
-// ---- checks of one element
-
-static bool all_finite(const double *x, int n)
-{
-    for (int i = 0; i < n; i++)
-        if (!isfinite(x[i]))
-            return false;
-    return true;
-}
-
-// A body's second moments of mass, tr(J)/2 E - J, are never negative; then J is that of a body.
-static bool is_inertia(const double J[6])
-{
-    double half = 0.5 * (J[0] + J[1] + J[2]), tiny = 1e-9 * fabs(half);
-    double xx = half - J[0], yy = half - J[1], zz = half - J[2], xy = -J[3], xz = -J[4], yz = -J[5];
-    double determinant =
-        xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-    return half >= 0 && xx >= -tiny && yy >= -tiny && zz >= -tiny &&
-           xx * yy - xy * xy >= -tiny * half && xx * zz - xz * xz >= -tiny * half &&
-           yy * zz - yz * yz >= -tiny * half && determinant >= -tiny * half * half;
-}
-
-static ld_status check_hinge(const ld_mstmm_element *e, ld_error *error)
-{
-    if ((unsigned)e->hinge > LD_HINGE_FREE)
-        return ld_fail(error, LD_ERR_INPUT, "element '%s': no such hinge", e->name);
-    int axes = hinge_table[e->hinge].axes, speeds = hinge_table[e->hinge].speeds;
-    v3 first = v3_from(e->axis), second = v3_from(e->axis_2);
-    if ((axes > 0 && !(v3_norm(first) > 0)) || (axes > 1 && !(v3_norm(second) > 0)))
-        return ld_fail(error, LD_ERR_INPUT, "element '%s': its %s hinge needs %s", e->name,
-                       hinge_table[e->hinge].name, axes > 1 ? "two axes" : "an axis");
-    if (axes > 1 && !(v3_norm(v3_cross(first, second)) > 1e-6 * v3_norm(first) * v3_norm(second)))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "element '%s': the two axes of its universal hinge are parallel", e->name);
-    for (int k = 0; k < speeds; k++)
-        if (!(e->stiffness[k] >= 0) || !(e->damping[k] >= 0))
-            return ld_fail(error, LD_ERR_INPUT,
-                           "element '%s': stiffness and damping of its hinge must not be negative",
-                           e->name);
-    return LD_OK;
-}
-
-static ld_status check_element(const ld_mstmm_element *e, int index, ld_error *error)
-{
-    if (!e->name || !e->name[0] || strlen(e->name) >= LD_MAX_NAME)
-        return ld_fail(error, LD_ERR_INPUT, "element number %d needs a name of 1 to %d letters",
-                       index + 1, LD_MAX_NAME - 1);
-    bool known = all_finite(e->at, 3) && all_finite(e->attitude, 4) && all_finite(e->axis, 3) &&
-                 all_finite(e->axis_2, 3) && all_finite(e->stiffness, 6) &&
-                 all_finite(e->damping, 6) && all_finite(e->rest, 2) && all_finite(&e->mass, 1) &&
-                 all_finite(e->center, 3) && all_finite(e->inertia, 6);
-    if (!known)
-        return ld_fail(error, LD_ERR_INPUT, "element '%s': a value is not finite", e->name);
-    ld_status status = check_hinge(e, error);
-    if (status || e->beam)
-        return status;
-    if (e->mass < 0)
-        return ld_fail(error, LD_ERR_INPUT, "element '%s': its mass is negative (%g kg)", e->name,
-                       e->mass);
-    if (!is_inertia(e->inertia))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "element '%s': its inertia is impossible (each principal moment must be "
-                       "positive or 0 and none above the sum of the other two)",
-                       e->name);
-    return LD_OK;
-}
-
-// ---- the tree of the description
-
-typedef struct tree {
-    int count;
-    int *parent;       // element index, -1: the ground
-    int *first, *next; // children in the order given; first[count]: of the ground
-    int *order;        // parents before children, depth first
-} tree;
-
-typedef struct named {
-    const char *name;
-    int index;
-} named;
-
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(((const named *)a)->name, ((const named *)b)->name);
-}
-
-static ld_status link_parents(tree *t, const ld_mstmm_element *elements, named *names,
-                              ld_error *error)
-{
-    for (int i = 0; i < t->count; i++)
-        names[i] = (named){elements[i].name, i};
-    qsort(names, (size_t)t->count, sizeof *names, compare_names);
-    for (int i = 1; i < t->count; i++)
-        if (!compare_names(&names[i - 1], &names[i]))
-            return ld_fail(
-                error, LD_ERR_INPUT,
-                "element '%s' is given twice: a body has one inboard hinge, closed loops "
-                "are not supported",
-                names[i].name);
-    for (int i = 0; i <= t->count; i++)
-        t->first[i] = -1;
-    for (int i = t->count - 1; i >= 0; i--) {
-        const named wanted = {elements[i].parent, 0};
-        const named *found = NULL;
-        if (elements[i].parent) {
-            found = bsearch(&wanted, names, (size_t)t->count, sizeof *names, compare_names);
-            if (!found)
-                return ld_fail(error, LD_ERR_INPUT, "element '%s': its parent '%s' does not exist",
-                               elements[i].name, elements[i].parent);
-        }
-        t->parent[i] = found ? found->index : -1;
-        int at = found ? found->index : t->count;
-        t->next[i] = t->first[at];
-        t->first[at] = i;
-    }
-    return LD_OK;
-}
-
-// Depth-first order; elements that the ground does not reach stand in a circle.
-static ld_status order_elements(tree *t, const ld_mstmm_element *elements, ld_error *error)
-{
-    int done = 0, at = t->first[t->count];
-    while (at >= 0) {
-        t->order[done++] = at;
-        if (t->first[at] >= 0) {
-            at = t->first[at];
-        } else {
-            while (at >= 0 && t->next[at] < 0)
-                at = t->parent[at];
-            if (at >= 0)
-                at = t->next[at];
-        }
-    }
-    if (done == t->count)
-        return LD_OK;
-    bool *seen = calloc((size_t)t->count, sizeof *seen);
-    if (!seen)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
-    for (int i = 0; i < done; i++)
-        seen[t->order[i]] = true;
-    int lost = 0;
-    while (seen[lost])
-        lost++;
-    for (; !seen[lost]; lost = t->parent[lost])
-        seen[lost] = true;
-    free(seen);
-    return ld_fail(error, LD_ERR_INPUT,
-                   "element '%s' is its own ancestor: a circle never reaches the ground (closed "
-                   "loops are not supported)",
-                   elements[lost].name);
-}
-
-static ld_status check_ends(const tree *t, const ld_mstmm_element *elements, ld_error *error)
-{
-    for (int i = 0; i < t->count; i++) {
-        const ld_mstmm_element *e = &elements[i];
-        if (t->first[i] < 0 && !e->beam && !(e->mass > 0))
-            return ld_fail(error, LD_ERR_INPUT, "element '%s': an end body without mass", e->name);
-        if (t->parent[i] >= 0 && elements[t->parent[i]].beam &&
-            !(e->at[0] >= 0 && e->at[0] <= elements[t->parent[i]].beam->length))
-            return ld_fail(error, LD_ERR_INPUT,
-                           "element '%s': its station %g m is not on the beam '%s' (0 to %g m)",
-                           e->name, e->at[0], elements[t->parent[i]].name,
-                           elements[t->parent[i]].beam->length);
-    }
-    return LD_OK;
-}
-
-static void free_tree(tree *t)
-{
-    free(t->parent);
-    free(t->first);
-    free(t->next);
-    free(t->order);
-}
-
-static ld_status make_tree(tree *t, const ld_mstmm_element *elements, int count, ld_error *error)
-{
-    size_t n = (size_t)count;
-    *t = (tree){count, calloc(n, sizeof(int)), calloc(n + 1, sizeof(int)), calloc(n, sizeof(int)),
-                calloc(n, sizeof(int))};
-    named *names = calloc(n, sizeof *names);
-    ld_status status = LD_OK;
-    if (!t->parent || !t->first || !t->next || !t->order || !names)
-        status = ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
-    for (int i = 0; !status && i < count; i++)
-        status = check_element(&elements[i], i, error);
-    if (!status)
-        status = link_parents(t, elements, names, error);
-    if (!status)
-        status = order_elements(t, elements, error);
-    if (!status)
-        status = check_ends(t, elements, error);
-    free(names);
-    if (status)
-        free_tree(t);
-    return status;
-}
+#include "systems/multibody/description.h"
 
 // ---- memory
 
@@ -235,14 +22,21 @@ static void *array(size_t count, size_t size, bool *missing)
     return block;
 }
 
-static bool allocate(ld_mstmm *s)
+static bool allocate_constant(ld_mstmm *s)
+{
+    bool missing = false;
+    size_t n = (size_t)s->node_count + 1;
+    s->node = array(n, sizeof *s->node, &missing);
+    s->inertia = array(n, sizeof *s->inertia, &missing);
+    s->angle_q = array(n + 4, sizeof *s->angle_q, &missing);
+    return !missing;
+}
+
+static bool allocate_workspace(ld_mstmm *s)
 {
     bool missing = false;
     size_t n = (size_t)s->node_count + 1, u = (size_t)s->u_count, k = (size_t)s->branch_count;
-    s->node = array(n, sizeof *s->node, &missing);
-    s->inertia = array(n, sizeof *s->inertia, &missing);
     s->beam_of = array(n, sizeof *s->beam_of, &missing);
-    s->angle_q = array(n + 4, sizeof *s->angle_q, &missing);
     s->angle = array(n + 4, sizeof *s->angle, &missing);
     s->sine = array(n + 4, sizeof *s->sine, &missing);
     s->cosine = array(n + 4, sizeof *s->cosine, &missing);
@@ -255,24 +49,74 @@ static bool allocate(ld_mstmm *s)
     s->tau = array(u, sizeof *s->tau, &missing);
     s->wrench = array(n, sizeof *s->wrench, &missing);
     s->place = array(n, sizeof *s->place, &missing);
+    if (!missing)
+        v4d_store_m3(s->motion[0].A, m3_identity());
     return !missing;
 }
+
+static void free_blocks(void *const *block, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        free(block[i]);
+}
+
+#define FREE_ALL(...)                                                                              \
+    free_blocks((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
 
 void ld_mstmm_free(ld_mstmm *s)
 {
     if (!s)
         return;
-    for (int i = 0; i < s->beam_count; i++)
-        beam_free(&s->beams[i]);
-    void *blocks[] = {s->name,     s->element,  s->element_node, s->element_q, s->element_u,
-                      s->q_length, s->u_length, s->body_axes,    s->node,      s->inertia,
-                      s->beam_of,  s->beams,    s->element_beam, s->angle_q,   s->angle,
-                      s->sine,     s->cosine,   s->motion,       s->axis,      s->branch,
-                      s->branch_x, s->passing,  s->own,          s->tau,       s->wrench,
-                      s->place};
-    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
-        free(blocks[i]);
+    const bool last = !s->sharing || atomic_fetch_sub(&s->sharing->systems, 1) == 1;
+    for (int i = 0; s->beams && i < s->beam_count; i++)
+        beam_free(&s->beams[i], last);
+    FREE_ALL(s->beam_of, s->beams, s->angle, s->sine, s->cosine, s->motion, s->axis, s->branch,
+             s->branch_x, s->passing, s->own, s->tau, s->wrench, s->place);
+    if (last)
+        FREE_ALL(s->name, s->element, s->element_node, s->element_q, s->element_u, s->q_length,
+                 s->u_length, s->body_axes, s->node, s->inertia, s->element_beam, s->angle_q,
+                 s->sharing);
     free(s);
+}
+
+// The workspace of a copy: beams with their outputs.
+static bool copy_workspace(ld_mstmm *s, const ld_mstmm *from)
+{
+    bool missing = false;
+    s->beams = array((size_t)s->beam_count, sizeof *s->beams, &missing);
+    if (missing || !allocate_workspace(s))
+        return false;
+    for (int i = 0; i < s->beam_count; i++)
+        if (!beam_copy(&s->beams[i], &from->beams[i]))
+            return false;
+    memcpy(s->beam_of, from->beam_of, ((size_t)s->node_count + 1) * sizeof *s->beam_of);
+    for (int i = 0; i <= s->node_count; i++)
+        if (s->beam_of[i].body)
+            s->beam_of[i].body = s->beams + (s->beam_of[i].body - from->beams);
+    return true;
+}
+
+ld_status ld_mstmm_copy(const ld_mstmm *system, ld_mstmm **out, ld_error *error)
+{
+    ld_mstmm *s = malloc(sizeof *s);
+    if (!s)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
+    *s = *system;
+    atomic_fetch_add(&s->sharing->systems, 1);
+    s->beam_of = NULL;
+    s->beams = NULL;
+    s->angle = s->sine = s->cosine = s->tau = NULL;
+    s->motion = NULL;
+    s->axis = NULL;
+    s->own = s->passing = s->branch = NULL;
+    s->branch_x = NULL;
+    s->wrench = s->place = NULL;
+    if (!copy_workspace(s, system)) {
+        ld_mstmm_free(s);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
+    }
+    *out = s;
+    return LD_OK;
 }
 
 // ---- nodes
@@ -330,57 +174,84 @@ static int add_section(builder *b, int e, bool *missing)
     return i;
 }
 
+// The directions of a planar hinge: two in its plane, its normal.
+static void plane_directions(const ld_mstmm_element *given, v3 direction[3])
+{
+    v3 normal = v3_from(given->axis), first = v3_from(given->axis_2);
+    direction[2] = v3_scale(1 / v3_norm(normal), normal);
+    first = v3_axpy(first, -v3_dot(first, direction[2]), direction[2]);
+    direction[0] = v3_scale(1 / v3_norm(first), first);
+    direction[1] = v3_cross(direction[2], direction[0]);
+}
+
+// Axes of a hinge that consists of single ones, in their order.
+static int single_axes(const ld_mstmm_element *given, node_hinge kind[3], v3 along[3])
+{
+    static const node_hinge planar[3] = {NODE_SLIDE, NODE_SLIDE, NODE_TURN};
+    along[0] = along[1] = v3_from(given->axis);
+    kind[0] = kind[1] = NODE_TURN;
+    switch (given->hinge) {
+    case LD_HINGE_REVOLUTE:
+        return 1;
+    case LD_HINGE_PRISMATIC:
+        kind[0] = NODE_SLIDE;
+        return 1;
+    case LD_HINGE_CYLINDRICAL:
+        kind[0] = NODE_SLIDE;
+        return 2;
+    case LD_HINGE_UNIVERSAL:
+        along[1] = v3_from(given->axis_2);
+        return 2;
+    case LD_HINGE_PLANAR:
+        memcpy(kind, planar, sizeof planar);
+        plane_directions(given, along);
+        return 3;
+    default:
+        return 0;
+    }
+}
+
 // The nodes of element e's hinge; the last one carries its body. Returns that one.
 static int add_hinge(builder *b, int e, int parent, v3 at, m3 G)
 {
     ld_mstmm *s = b->system;
     const ld_mstmm_element *given = &s->element[e];
-    int q = s->element_q[e], u = s->element_u[e], i = 0;
-    m3 Q = m3_identity(), first = m3_identity();
-    switch (given->hinge) {
-    case LD_HINGE_REVOLUTE:
-    case LD_HINGE_PRISMATIC:
-        Q = axes_along(v3_from(given->axis));
-        i = add_node(b, parent, given->hinge == LD_HINGE_REVOLUTE ? NODE_TURN : NODE_SLIDE, 1);
-        s->node[i].G = m3_mul(G, Q);
-        break;
-    case LD_HINGE_CYLINDRICAL:
-        Q = axes_along(v3_from(given->axis));
-        i = add_node(b, parent, NODE_SLIDE, 1);
-        s->node[i].G = m3_mul(G, Q);
-        break;
-    case LD_HINGE_UNIVERSAL:
-        first = axes_along(v3_from(given->axis));
-        Q = axes_along(v3_from(given->axis_2));
-        i = add_node(b, parent, NODE_TURN, 1);
-        s->node[i].G = m3_mul(G, first);
-        break;
-    case LD_HINGE_WELD:
-    case LD_HINGE_SPHERICAL:
-    case LD_HINGE_FREE:
-        i = add_node(b, parent,
-                     given->hinge == LD_HINGE_WELD        ? NODE_WELD
-                     : given->hinge == LD_HINGE_SPHERICAL ? NODE_BALL
-                                                          : NODE_FREE,
-                     hinge_table[given->hinge].speeds);
-        s->node[i].G = G;
-        break;
-    }
-    s->node[i].at = at;
-    s->node[i].q = q;
-    s->node[i].u = u;
-    if (s->node[i].hinge == NODE_TURN)
-        add_turn(b, &s->node[i]);
-    // the second axis of a hinge with two
-    if (given->hinge == LD_HINGE_CYLINDRICAL || given->hinge == LD_HINGE_UNIVERSAL) {
-        i = add_node(b, i, NODE_TURN, 1);
-        s->node[i].G =
-            given->hinge == LD_HINGE_UNIVERSAL ? m3_mul(m3_transpose(first), Q) : m3_identity();
-        s->node[i].q = q + 1;
-        s->node[i].u = u + 1;
-        add_turn(b, &s->node[i]);
+    node_hinge kind[3];
+    v3 along[3];
+    m3 Q = m3_identity();
+    int i = 0, axes = single_axes(given, kind, along);
+    for (int k = 0; k < axes; k++) {
+        // the node before has its axis along its z axis; a second axis may be the same one
+        m3 before = Q;
+        bool same = k > 0 && v3_norm(v3_cross(along[k - 1], along[k])) == 0;
+        Q = axes_along(along[k]);
+        i = add_node(b, k == 0 ? parent : i, kind[k], 1);
+        s->node[i].G = k == 0 ? m3_mul(G, Q)
+                       : same ? m3_identity()
+                              : m3_mul(m3_transpose(before), Q);
+        s->node[i].at = k == 0 ? at : v3_zero();
+        s->node[i].q = s->element_q[e] + k;
+        s->node[i].u = s->element_u[e] + k;
+        s->node[i].pass = kind[k] == NODE_TURN ? PASS_TURN : PASS_SLIDE;
+        if (kind[k] == NODE_TURN)
+            add_turn(b, &s->node[i]);
+        if (given->prescribed)
+            s->node[i].pass = PASS_GIVEN;
     }
     s->body_axes[e] = Q;
+    if (axes > 0)
+        return i;
+    node_hinge hinge = given->hinge == LD_HINGE_WELD        ? NODE_WELD
+                       : given->hinge == LD_HINGE_SPHERICAL ? NODE_BALL
+                                                            : NODE_FREE;
+    i = add_node(b, parent, hinge, hinge_table[given->hinge].speeds);
+    s->node[i].G = G;
+    s->node[i].at = at;
+    s->node[i].q = s->element_q[e];
+    s->node[i].u = s->element_u[e];
+    s->node[i].pass = hinge == NODE_WELD  ? PASS_WELD
+                      : given->prescribed ? PASS_GIVEN
+                                          : PASS_SEVERAL;
     return i;
 }
 
@@ -474,8 +345,10 @@ static ld_status copy_elements(ld_mstmm *s, const tree *t, const ld_mstmm_elemen
     s->body_axes = array(n, sizeof *s->body_axes, &missing);
     s->element_beam = array(n, sizeof *s->element_beam, &missing);
     s->beams = array(n, sizeof *s->beams, &missing);
+    s->sharing = array(0, sizeof *s->sharing, &missing);
     if (missing)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
+    atomic_init(&s->sharing->systems, 1);
 
     for (int e = 0; e < s->element_count; e++) {
         const ld_mstmm_element *given = &elements[e];
@@ -499,9 +372,11 @@ static ld_status copy_elements(ld_mstmm *s, const tree *t, const ld_mstmm_elemen
         }
         for (int k = 0; k < s->u_length[e]; k++)
             s->has_springs |= given->stiffness[k] > 0 || given->damping[k] > 0;
-        bool two_nodes = given->hinge == LD_HINGE_CYLINDRICAL || given->hinge == LD_HINGE_UNIVERSAL;
+        node_hinge kind[3];
+        v3 along[3];
+        int axes = single_axes(given, kind, along);
         bool on_beam = t->parent[e] >= 0 && elements[t->parent[e]].beam;
-        s->node_count += 1 + two_nodes + on_beam;
+        s->node_count += (axes > 0 ? axes : 1) + on_beam;
     }
     return LD_OK;
 }
@@ -510,14 +385,14 @@ ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const dou
                           ld_mstmm **out, ld_error *error)
 {
     tree t;
-    if (count < 1 || !all_finite(gravity, 3))
+    if (count < 1 || !description_all_finite(gravity, 3))
         return ld_fail(error, LD_ERR_INPUT, "a system needs at least one element and gravity");
-    ld_status status = make_tree(&t, elements, count, error);
+    ld_status status = tree_make(&t, elements, count, error);
     if (status)
         return status;
     ld_mstmm *s = calloc(1, sizeof *s);
     if (!s) {
-        free_tree(&t);
+        tree_free(&t);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
     }
     s->element_count = count;
@@ -525,10 +400,9 @@ ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const dou
     s->base = (spatial){v3_neg(s->gravity), v3_zero()};
     s->branch_count = count;
     status = copy_elements(s, &t, elements, error);
-    if (!status && !allocate(s))
+    if (!status && (!allocate_constant(s) || !allocate_workspace(s)))
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
     if (!status) {
-        v4d_store_m3(s->motion[0].A, m3_identity());
         choose_sweep(s);
         builder b = {.system = s, .tree = &t};
         for (int k = 0; !status && k < count; k++)
@@ -537,7 +411,7 @@ ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const dou
         s->angle_count = b.angle;
         link_shares(s);
     }
-    free_tree(&t);
+    tree_free(&t);
     if (status)
         ld_mstmm_free(s);
     else

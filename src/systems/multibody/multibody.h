@@ -1,11 +1,13 @@
 // A multibody system as a list of nodes, parents before children (depth first), and its workspace.
 //
 // Every hinge becomes single axes: a universal hinge two turns, a cylindrical one a slide and a
-// turn, with massless nodes between. A beam's child hangs on a section node of its own. A node's
-// internal axes are the body's turned so that a single axis is its z axis.
+// turn, a planar one two slides and a turn, with massless nodes between. A beam's child hangs on a
+// section node of its own. A node's internal axes are the body's turned so that a single axis is
+// its z axis.
 #ifndef LD_SYSTEMS_MULTIBODY_H
 #define LD_SYSTEMS_MULTIBODY_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 #include "elements/tube/beam.h"
@@ -13,6 +15,8 @@
 #include "math/vectors/lanes_mat3.h"
 
 typedef enum node_hinge { NODE_WELD, NODE_TURN, NODE_SLIDE, NODE_BALL, NODE_FREE } node_hinge;
+// What the inward sweep does at a hinge: a prescribed one has PASS_GIVEN.
+typedef enum node_pass { PASS_WELD, PASS_TURN, PASS_SLIDE, PASS_SEVERAL, PASS_GIVEN } node_pass;
 typedef enum node_body { NODE_RIGID, NODE_BEAM, NODE_SECTION } node_body;
 
 // Topology and hinge of a node; node 0 is the ground.
@@ -20,14 +24,15 @@ typedef struct node {
     int parent;
     node_hinge hinge;
     node_body body;
-    int q, u;    // offsets of its hinge's coordinates and speeds
-    int axis;    // first of its hinge's axis records
-    int angle;   // turn: index among all turns
-    int element; // whose body it is; -1: a massless node between two axes
-    int branch;  // where several children's shares are summed; -1: none but the next node
-    bool leads;  // its parent is the node before: shares pass directly
-    v3 at;       // [m] its hinge on the parent, parent's internal axes
-    m3 G;        // its internal axes at zero coordinates to the parent's
+    int q, u;     // offsets of its hinge's coordinates and speeds
+    int axis;     // first of its hinge's axis records
+    int angle;    // turn: index among all turns
+    int element;  // whose body it is; -1: a massless node between two axes
+    int branch;   // where several children's shares are summed; -1: none but the next node
+    bool leads;   // its parent is the node before: shares pass directly
+    uint8_t pass; // a node_pass
+    v3 at;        // [m] its hinge on the parent, parent's internal axes
+    m3 G;         // its internal axes at zero coordinates to the parent's
 } node;
 
 // Inertia about the node's origin, internal axes.
@@ -75,7 +80,13 @@ typedef struct spatial_lanes {
 // So many bodies' own shares are made at a time, independent of each other.
 enum { MULTIBODY_BLOCK = 8 };
 
+// How many systems share what is constant.
+typedef struct sharing {
+    atomic_int systems;
+} sharing;
+
 struct ld_mstmm {
+    sharing *sharing;
     int element_count, node_count; // the ground not counted
     int q_count, u_count, axis_count, angle_count, branch_count, beam_count;
     spatial base; // acceleration of the ground less gravity
@@ -83,7 +94,7 @@ struct ld_mstmm {
     v3 gravity;
     bool has_springs;
 
-    // constant
+    // constant, shared by copies
     char (*name)[LD_MAX_NAME];
     ld_mstmm_element *element; // as given (names and parents replaced by NULL)
     int *element_beam;         // beam of each element that is one
@@ -94,11 +105,11 @@ struct ld_mstmm {
     m3 *body_axes; // internal axes to body axes, of each element
     node *node;    // [node_count + 1], 0 is the ground
     node_inertia *inertia;
-    node_beam *beam_of; // by node
-    beam *beams;
     int *angle_q; // where each turn's angle stands in q
 
     // workspace of one evaluation
+    node_beam *beam_of; // by node
+    beam *beams;        // their tubes are constant
     double *angle, *sine, *cosine;
     node_motion *motion; // [node_count + 1]
     axis_record *axis;
@@ -132,14 +143,22 @@ LD_INLINE void multibody_move(ld_mstmm *system, const double *q, const double *u
 // Positions and velocities of the nodes' origins into `place`; after multibody_move.
 void multibody_place(ld_mstmm *system, const double *u);
 
-// Forces of springs and dampers added to tau (NULL: none) in the workspace; returns them, or tau
-// itself where there are none.
+// Forces of springs and dampers added to tau (NULL: none) in the workspace, but for the prescribed
+// hinges' accelerations in it; returns them, or tau itself where there are none.
 const double *multibody_hinge_forces(ld_mstmm *system, const double *q, const double *u,
                                      const double *tau);
+// Forces of all springs and dampers, in the workspace.
+const double *multibody_spring_forces(ld_mstmm *system, const double *q, const double *u);
 double multibody_spring_energy(const ld_mstmm *system, const double *q);
 
 // The error of a hinge that offers no resistance, at node i, or of a state that is not finite.
 ld_status multibody_singular(const ld_mstmm *system, int i, ld_error *error);
+
+// Speeds of a node's hinge.
+LD_INLINE int node_speeds(const node *n)
+{
+    return n->hinge == NODE_FREE ? 6 : n->hinge == NODE_BALL ? 3 : n->hinge != NODE_WELD;
+}
 
 // Internal axes of node i in inertial axes.
 LD_INLINE m3 node_axes(const ld_mstmm *system, int i)

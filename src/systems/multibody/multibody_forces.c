@@ -76,11 +76,10 @@ static void project(const ld_mstmm *system, int i, spatial F, double *tau)
     }
 }
 
-void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
-                     const double *wrench, double *tau)
+// The wrench that every hinge carries into system->wrench, and the forces along its axes (NULL: not
+// asked for).
+static void carry(ld_mstmm *system, const double *u_dot, const double *wrench, double *tau)
 {
-    multibody_move(system, q, u);
-
     // outwards: accelerations, and what every body needs for them
     spatial *x = system->place, *F = system->wrench;
     x[0] = system->base;
@@ -114,17 +113,37 @@ void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const d
             F[n->parent] = spatial_add(F[n->parent], spatial_turn(A_R, on_R));
             continue;
         }
-        if (n->body == NODE_BEAM)
+        if (n->body == NODE_BEAM && tau)
             memcpy(tau + b->modes_u, b->body->h + 6, (size_t)b->body->modes * sizeof *tau);
-        project(system, i, F[i], tau);
+        if (tau)
+            project(system, i, F[i], tau);
         F[n->parent] = spatial_add(F[n->parent], wrench_shift(v4d_v3(system->motion[i].r), F[i]));
     }
+}
+
+void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
+                     const double *wrench, double *tau)
+{
+    multibody_move(system, q, u);
+    carry(system, u_dot, wrench, tau);
 
     // less what springs and dampers give
     if (system->has_springs) {
-        const double *given = multibody_hinge_forces(system, q, u, NULL);
+        const double *given = multibody_spring_forces(system, q, u);
         for (int k = 0; k < system->u_count; k++)
             tau[k] -= given[k];
+    }
+}
+
+void ld_mstmm_reactions(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
+                        const double *wrench, double *reaction)
+{
+    multibody_move(system, q, u);
+    carry(system, u_dot, wrench, NULL);
+    for (int e = 0; e < system->element_count; e++) {
+        spatial F = system->wrench[system->element_node[e]];
+        v3_store(reaction + 6 * e, F.linear);
+        v3_store(reaction + 6 * e + 3, F.angular);
     }
 }
 
@@ -228,6 +247,38 @@ ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *
     v3_store(point.velocity, v3_add(velocity, v3_cross(w, r)));
     v3_store(point.rate, w);
     return point;
+}
+
+void ld_mstmm_point_acceleration(ld_mstmm *system, const double *q, const double *u,
+                                 const double *u_dot, int element, const double at[3],
+                                 double linear[3], double angular[3])
+{
+    const int i = system->element_node[element];
+    const node *n = &system->node[i];
+    spatial *x = system->place;
+    multibody_move(system, q, u);
+    x[0] = (spatial){v3_zero(), v3_zero()};
+    for (int k = 1; k <= i; k++) {
+        x[k] = accelerate(system, k, x[system->node[k].parent], u_dot);
+        if (system->node[k].body == NODE_BEAM)
+            beam_needed(system->beam_of[k].body, spatial_turn_back(node_body_axes(system, k), x[k]),
+                        u_dot + system->beam_of[k].modes_u);
+    }
+    spatial of = x[i];
+    m3 A = node_body_axes(system, i);
+    v3 w = v4d_v3(system->motion[i].w), r = v3_from(at);
+    if (n->body == NODE_BEAM) {
+        const node_beam *b = &system->beam_of[i];
+        tube_section_state section;
+        tube_section(&b->body->tube, at[0], b->body->w, q + b->modes_q, u + b->modes_u, &section);
+        of = spatial_turn(A, beam_section_acceleration(b->body, &section));
+        w = v3_add(w, m3_apply(A, section.spin));
+        A = m3_mul(A, section.rotation);
+        r.x = 0;
+    }
+    r = m3_apply(A, r);
+    v3_store(linear, v3_add(spatial_shift(r, of).linear, v3_cross(w, v3_cross(w, r))));
+    v3_store(angular, of.angular);
 }
 
 void ld_mstmm_rates(const ld_mstmm *system, const double *q, const double *u, double *q_dot)

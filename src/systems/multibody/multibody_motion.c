@@ -34,6 +34,35 @@ static v3 ball_spring(quat attitude, const double *stiffness)
     return v3_neg(rv_left_jacobian_inverse_transposed(v3_neg(phi), pull));
 }
 
+// Where the spring of coordinate k of a hinge with single axes has no force.
+static double rest_of(const ld_mstmm_element *given, int k)
+{
+    return k < 2 ? given->rest[k] : 0;
+}
+
+// Adds what springs and dampers of element e give.
+static void add_springs(const ld_mstmm *system, int e, const double *q, const double *u,
+                        double *force)
+{
+    const ld_mstmm_element *given = &system->element[e];
+    int at_q = system->element_q[e], at_u = system->element_u[e];
+    force += at_u;
+    for (int k = 0; k < system->u_length[e]; k++)
+        force[k] -= given->damping[k] * u[at_u + k];
+    if (given->hinge == LD_HINGE_SPHERICAL || given->hinge == LD_HINGE_FREE) {
+        int slides = given->hinge == LD_HINGE_FREE ? 3 : 0;
+        for (int k = 0; k < slides; k++)
+            force[k] -= given->stiffness[k] * q[at_q + k];
+        v3 moment = ball_spring(q_from(q + at_q + slides), given->stiffness + slides);
+        force[slides] += moment.x;
+        force[slides + 1] += moment.y;
+        force[slides + 2] += moment.z;
+    } else {
+        for (int k = 0; k < system->u_length[e]; k++)
+            force[k] -= given->stiffness[k] * (q[at_q + k] - rest_of(given, k));
+    }
+}
+
 const double *multibody_hinge_forces(ld_mstmm *system, const double *q, const double *u,
                                      const double *tau)
 {
@@ -43,25 +72,17 @@ const double *multibody_hinge_forces(ld_mstmm *system, const double *q, const do
         memcpy(system->tau, tau, (size_t)system->u_count * sizeof *tau);
     else
         memset(system->tau, 0, (size_t)system->u_count * sizeof *tau);
-    for (int e = 0; system->has_springs && e < system->element_count; e++) {
-        const ld_mstmm_element *given = &system->element[e];
-        int at_q = system->element_q[e], at_u = system->element_u[e];
-        double *force = system->tau + at_u;
-        for (int k = 0; k < system->u_length[e]; k++)
-            force[k] -= given->damping[k] * u[at_u + k];
-        if (given->hinge == LD_HINGE_SPHERICAL || given->hinge == LD_HINGE_FREE) {
-            int slides = given->hinge == LD_HINGE_FREE ? 3 : 0;
-            for (int k = 0; k < slides; k++)
-                force[k] -= given->stiffness[k] * q[at_q + k];
-            v3 moment = ball_spring(q_from(q + at_q + slides), given->stiffness + slides);
-            force[slides] += moment.x;
-            force[slides + 1] += moment.y;
-            force[slides + 2] += moment.z;
-        } else {
-            for (int k = 0; k < system->u_length[e]; k++)
-                force[k] -= given->stiffness[k] * (q[at_q + k] - given->rest[k]);
-        }
-    }
+    for (int e = 0; system->has_springs && e < system->element_count; e++)
+        if (!system->element[e].prescribed)
+            add_springs(system, e, q, u, system->tau);
+    return system->tau;
+}
+
+const double *multibody_spring_forces(ld_mstmm *system, const double *q, const double *u)
+{
+    memset(system->tau, 0, (size_t)system->u_count * sizeof *system->tau);
+    for (int e = 0; e < system->element_count; e++)
+        add_springs(system, e, q, u, system->tau);
     return system->tau;
 }
 
@@ -79,7 +100,7 @@ double multibody_spring_energy(const ld_mstmm *system, const double *q)
                 sum += k[i] * at[i] * at[i];
         } else {
             for (int i = 0; i < system->u_length[e]; i++)
-                sum += k[i] * (at[i] - given->rest[i]) * (at[i] - given->rest[i]);
+                sum += k[i] * (at[i] - rest_of(given, i)) * (at[i] - rest_of(given, i));
         }
     }
     return 0.5 * sum;

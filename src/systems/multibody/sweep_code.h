@@ -337,6 +337,29 @@ static int eliminate_several(ld_mstmm *system, int i, share *s, const double *ta
     return singular;
 }
 
+// A prescribed hinge: its accelerations join what its motion gives without them.
+static void give_motion(ld_mstmm *system, int i, const double *tau)
+{
+    const node *n = &system->node[i];
+    node_motion *m = &system->motion[i];
+    const double *given = tau + n->u;
+    const v4d none = v4d_all(0);
+    for (int k = 0; k < node_speeds(n); k++)
+        system->axis[n->axis + k] = (axis_record){none, none, given[k]};
+    if (n->hinge == NODE_FREE) {
+        v4d H[3];
+        hinge_axes(system, n, H);
+        m->bias_a += v4d_combine(H, given[0], given[1], given[2]);
+        given += 3;
+    }
+    if (n->hinge == NODE_TURN)
+        m->bias_alpha += m->A[2] * v4d_all(given[0]);
+    else if (n->hinge == NODE_SLIDE)
+        m->bias_a += m->A[2] * v4d_all(given[0]);
+    else
+        m->bias_alpha += v4d_combine(m->A, given[0], given[1], given[2]);
+}
+
 static spatial_matrix share_matrix(const share *s)
 {
     return (spatial_matrix){lanes_to_sym3(&s->A), lanes_to_m3(&s->B), lanes_to_sym3(&s->C)};
@@ -383,6 +406,29 @@ LD_INLINE int make_own_shares(ld_mstmm *system, int i)
     return first;
 }
 
+// Hinges with several axes or none, prescribed ones, and sections.
+LD_OUTLINE int pass_otherwise(ld_mstmm *system, int i, const share *own, const double *tau)
+{
+    const node *n = &system->node[i];
+    const node_motion *motion = &system->motion[i];
+    share *passing = system->passing;
+    const bool given = n->pass == PASS_GIVEN;
+    int singular = 0;
+    add_share(passing, own);
+    if (n->body == NODE_SECTION) {
+        load_beam(system, i, passing);
+        return 0;
+    }
+    if (given)
+        give_motion(system, i, tau);
+    else if (n->pass == PASS_SEVERAL)
+        singular = eliminate_several(system, i, passing, tau);
+    lanes_cycle r = lanes_cycle_of(motion->r);
+    add_bias(passing, motion->bias_a, given ? motion->bias_alpha : v4d_all(0), given);
+    shift(passing, &r);
+    return singular;
+}
+
 static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
 {
     share *passing = system->passing;
@@ -412,21 +458,12 @@ static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
         // its hinge, and on to the parent
         axis_record *record = &system->axis[n->axis];
         const bool onward = n->parent > 0;
-        if (n->hinge == NODE_TURN) {
+        if (n->pass == PASS_TURN) {
             singular |= pass_axis(own, passing, record, motion, tau[n->u], true, onward);
-        } else if (n->hinge == NODE_SLIDE) {
+        } else if (n->pass == PASS_SLIDE) {
             singular |= pass_axis(own, passing, record, motion, tau[n->u], false, onward);
         } else {
-            add_share(passing, own);
-            if (n->body == NODE_SECTION) {
-                load_beam(system, i, passing);
-            } else {
-                if (n->hinge != NODE_WELD)
-                    singular |= eliminate_several(system, i, passing, tau);
-                lanes_cycle r = lanes_cycle_of(motion->r);
-                add_bias(passing, motion->bias_a, v4d_all(0), false);
-                shift(passing, &r);
-            }
+            singular |= pass_otherwise(system, i, own, tau);
         }
         if (singular)
             return i;
@@ -480,6 +517,12 @@ static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_l
     return x;
 }
 
+LD_OUTLINE void report_given(const ld_mstmm *system, const node *n, double *u_dot)
+{
+    for (int k = 0; k < node_speeds(n); k++)
+        u_dot[n->u + k] = system->axis[n->axis + k].rate;
+}
+
 static spatial_lanes accelerate_section(const ld_mstmm *system, int i)
 {
     const node_beam *b = &system->beam_of[i];
@@ -510,18 +553,20 @@ static void outwards(ld_mstmm *system, double *u_dot)
                 x = n->parent ? system->branch_x[system->node[n->parent].branch] : base;
             v4d a = (x.a + v4d_cross(x.alpha, motion->r)) + motion->bias_a;
             v4d alpha = x.alpha + motion->bias_alpha;
-            if (n->hinge == NODE_TURN) {
+            if (n->pass == PASS_TURN) {
                 v4d rate = solve_axis(&system->axis[n->axis], x);
                 x = (spatial_lanes){a, alpha + motion->A[2] * rate};
                 u_dot[n->u] = rate[0];
-            } else if (n->hinge == NODE_SLIDE) {
+            } else if (n->pass == PASS_SLIDE) {
                 v4d rate = solve_axis(&system->axis[n->axis], x);
                 x = (spatial_lanes){a + motion->A[2] * rate, alpha};
                 u_dot[n->u] = rate[0];
             } else {
                 x = (spatial_lanes){a, alpha};
-                if (n->hinge != NODE_WELD)
+                if (n->pass == PASS_SEVERAL)
                     x = accelerate_several(system, i, x, u_dot);
+                else if (n->pass == PASS_GIVEN)
+                    report_given(system, n, u_dot);
             }
             if (n->body == NODE_BEAM)
                 accelerate_beam(system, i, x, u_dot);
