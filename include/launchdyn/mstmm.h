@@ -94,11 +94,105 @@ typedef struct ld_mstmm_element {
 } ld_mstmm_element;
 
 /// Builds a system in a uniform gravity field [m/s2]. Fails with a sentence that names the element:
-/// a parent that does not exist, elements in a circle, a name given twice (closed loops are not
-/// supported), a massless end body, a mass or an inertia that no body can have, a missing axis.
+/// a parent that does not exist, elements in a circle, a name given twice, a massless end body, a
+/// mass or an inertia that no body can have, a missing axis.
 ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const double gravity[3],
                           ld_mstmm **out, ld_error *error);
 void ld_mstmm_free(ld_mstmm *system);
+/// One side of a joint that closes a loop.
+typedef struct ld_mstmm_end {
+    const char *element; ///< NULL: the ground
+    double at[3]; ///< [m] the joint's point on it, its axes; on a beam: station, then y and z in
+                  ///< the axes of the deformed section there
+    double attitude[4]; ///< quaternion, joint frame to these axes (any length); zeros: parallel
+} ld_mstmm_end;
+
+/// A joint that closes a loop: two elements, or an element and the ground, that the tree of hinges
+/// already connects. It is of the kinds that hinges have (but for free), `first` as the parent and
+/// `second` as the body; both joint frames coincide at zero coordinates. Its coordinates and speeds
+/// follow from those of the hinges (ld_mstmm_loop_state).
+typedef struct ld_mstmm_loop {
+    const char *name;
+    ld_mstmm_end first, second;
+    ld_hinge joint;
+    double axis[3], axis_2[3]; ///< in the joint frames, as of a hinge
+    double stiffness[6];       ///< of springs in the joint, as of a hinge
+    double damping[6];
+    double rest[2];
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+} ld_mstmm_loop;
+
+/// What a system consists of.
+typedef struct ld_mstmm_description {
+    const ld_mstmm_element *elements;
+    int element_count;
+    int loop_count;
+    const ld_mstmm_loop *loops;
+    double gravity[3];       ///< [m/s2]
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+} ld_mstmm_description;
+
+/// Builds a system with closed loops: fails as ld_mstmm_create does, and with a sentence that names
+/// the joint: a name given twice, an element that does not exist, a free joint, a body joined with
+/// itself. Before its first evaluation it has to be assembled.
+ld_status ld_mstmm_build(const ld_mstmm_description *description, ld_mstmm **out, ld_error *error);
+
+/// What ld_mstmm_assemble has found.
+typedef struct ld_mstmm_assembly {
+    int iterations;
+    int freedoms;       ///< degrees of freedom of the closed system
+    int held;           ///< constraints of the loops that are independent of each other
+    int redundant;      ///< constraints that the others imply: the motion is unique, forces are not
+    double gap;         ///< [m] largest distance left in a joint
+    double turn;        ///< [rad] largest angle left
+    double singularity; ///< of the pose: 1 far from a singular one, 0 in one (ld_mstmm_singularity)
+} ld_mstmm_assembly;
+
+/// Closes the loops: moves q (a guess) to where all joints fit, by the least motion weighted with
+/// the masses; and u (NULL: none), whose part that opens the loops goes likewise. Hinges of
+/// elements with kept[element] other than 0 (NULL: none) and prescribed ones keep their coordinates
+/// and speeds; beams flex only where hinges alone do not close. Finds out which constraints are
+/// redundant in general poses near q; later evaluations go by that. LD_ERR_INPUT with the joint's
+/// name and what is left where the loops cannot be closed. `report` may be NULL.
+ld_status ld_mstmm_assemble(ld_mstmm *system, double *q, double *u, const int *kept,
+                            ld_mstmm_assembly *report, ld_error *error);
+
+/// Takes the drift of a step out of q and then of u (either the closed one's, to rounding),
+/// weighted with the masses: momenta stay. LD_ERR_NUMERIC with the joint's name where it does not
+/// close. ld_mstmm_integrate does it after every step.
+ld_status ld_mstmm_project(ld_mstmm *system, double *q, double *u, ld_error *error);
+
+int ld_mstmm_loop_count(const ld_mstmm *system);
+/// Index of a loop by its joint's name, -1 where there is none.
+int ld_mstmm_find_loop(const ld_mstmm *system, const char *name);
+/// How many constraints of a joint are implied by the others', those of joints given before it
+/// counted first.
+int ld_mstmm_loop_redundancy(const ld_mstmm *system, int loop);
+/// How far the pose of the last evaluation is from a singular one: the least independent
+/// constraint's part that no other one covers, squared sine, against general poses; and its joint
+/// (NULL: not asked for). 1 without loops. Below 1e-12 that constraint has no force.
+double ld_mstmm_singularity(const ld_mstmm *system, int *loop);
+/// Force, then moment about the joint's point, of a joint on its second side in the last evaluation
+/// of accelerations, springs included, inertial axes. Redundant constraints carry nothing.
+void ld_mstmm_loop_force(const ld_mstmm *system, int loop, double force[6]);
+/// Coordinates (angles within pi) and speeds of a joint that closes a loop, in the order of a
+/// hinge's.
+void ld_mstmm_loop_state(ld_mstmm *system, const double *q, const double *u, int loop,
+                         double *coordinates, double *speeds);
+/// Adds what forces `tau` along a joint's speeds do, on its second side and opposite on the first,
+/// to `wrench` (6 for each element). LD_ERR_INPUT for an end on a beam: weld a frame there.
+ld_status ld_mstmm_loop_wrench(ld_mstmm *system, const double *q, int loop, const double *tau,
+                               double *wrench, ld_error *error);
+/// Directions in which the closed system can move at q: `count` rows of speed_count speeds, each
+/// with a 1 at one independent speed and 0 at the others of these. basis has room for speed_count
+/// rows.
+ld_status ld_mstmm_freedoms(ld_mstmm *system, const double *q, double *basis, int *count,
+                            ld_error *error);
+
+/// Makes an element's hinge prescribed, or free again, from now on (a lock: u and tau zero). Copies
+/// made before are not concerned.
+void ld_mstmm_prescribe(ld_mstmm *system, int element, int prescribed);
+
 /// The same system with a workspace of its own, for another thread; it shares what is constant.
 /// Either may be freed first.
 ld_status ld_mstmm_copy(const ld_mstmm *system, ld_mstmm **out, ld_error *error);
@@ -118,17 +212,21 @@ void ld_mstmm_reference(const ld_mstmm *system, double *q);
 /// Forward dynamics by the reduced sweep (Riccati form of the transfer equations, formulation.md
 /// section 2): u_dot from q, u, hinge forces `tau` (NULL: none) and applied wrenches (NULL: none;
 /// else 6 for each element: force, then moment about the body's origin, inertial axes). Springs and
-/// dampers of the hinges are added. Fails where a hinge's state is singular, with its name.
+/// dampers of the hinges are added. Loops are closed by forces at acceleration level; q and u are
+/// to close them already. Fails where a hinge's state is singular, with its name, or where a
+/// singular pose of a loop demands what no force gives.
 ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
                                  const double *tau, const double *wrench, double *u_dot,
                                  ld_error *error);
 
-/// Inverse dynamics: the hinge forces `tau` that make `u_dot` (on top of springs and dampers).
+/// Inverse dynamics: the hinge forces `tau` that make `u_dot` (on top of springs and dampers),
+/// joints of loops carrying nothing but their springs.
 void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
                      const double *wrench, double *tau);
 
-/// What every hinge transmits to its body while `u_dot` holds: force, then moment about the hinge's
-/// point on the body (its frame's origin), inertial axes; 6 for each element.
+/// What every hinge transmits to its body (with loops: of the joints' forces of the last evaluation
+/// of accelerations) while `u_dot` holds: force, then moment about the hinge's point on the body
+/// (its frame's origin), inertial axes; 6 for each element.
 void ld_mstmm_reactions(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
                         const double *wrench, double *reaction);
 
@@ -192,9 +290,10 @@ typedef struct ld_mstmm_mode {
 } ld_mstmm_mode;
 
 /// Natural frequencies, damping ratios and mode shapes at the equilibrium q held by constant `tau`
-/// (NULL: none), ascending. modes: at most speed_count are written, `count` tells how many;
-/// shapes (NULL: none): count rows of speed_count displacements (in the sense of the speeds), real
-/// and imaginary part in turn, the largest one 1. Fails where q is no equilibrium.
+/// (NULL: none), ascending; prescribed hinges hold, loops stay closed. modes: at most speed_count
+/// are written, `count` tells how many; shapes (NULL: none): count rows of speed_count
+/// displacements (in the sense of the speeds), real and imaginary part in turn, the largest one 1.
+/// Fails where q is no equilibrium.
 ld_status ld_mstmm_vibration(ld_mstmm *system, const double *q, const double *tau,
                              ld_mstmm_mode *modes, double *shapes, int *count, ld_error *error);
 

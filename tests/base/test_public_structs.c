@@ -35,7 +35,9 @@ SIZE(ld_sink, 72);
 SIZE(ld_study_options, 72);
 SIZE(ld_study_view, 48);
 SIZE(ld_mstmm_beam, 88);
+SIZE(ld_mstmm_description, 80);
 SIZE(ld_mstmm_element, 360);
+SIZE(ld_mstmm_loop, 336);
 SIZE(ld_mstmm_settings, 80);
 
 // Handed out one by one: may grow at their ends, up to which programs know them.
@@ -70,6 +72,8 @@ SIZE(ld_section, 96);
 SIZE(ld_stretch, 24);
 SIZE(ld_study_counts, 48);
 SIZE(ld_wind_section, 40);
+SIZE(ld_mstmm_assembly, 40);
+SIZE(ld_mstmm_end, 64);
 SIZE(ld_mstmm_energies, 24);
 SIZE(ld_mstmm_mode, 24);
 SIZE(ld_mstmm_overall, 272);

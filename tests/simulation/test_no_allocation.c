@@ -157,12 +157,48 @@ static void accelerations_of_a_chain_allocate_nothing(void **state)
     assert_true(allocations > 0); // the counter counts
 }
 
+// Nor do evaluations and projections of closed loops, near a singular pose (flat) and apart.
+static void closed_loops_allocate_nothing(void **state)
+{
+    (void)state;
+    ld_mstmm_element e[3] = {{.name = "left"},
+                             {.name = "coupler", .parent = "left", .at = {1}},
+                             {.name = "right", .at = {1}}};
+    for (int i = 0; i < 3; i++) {
+        e[i].hinge = LD_HINGE_REVOLUTE;
+        e[i].axis[2] = e[i].mass = e[i].inertia[1] = e[i].inertia[2] = 1;
+    }
+    const ld_mstmm_loop l = {.name = "pin",
+                             .first = {.element = "coupler", .at = {1}},
+                             .second = {.element = "right", .at = {1}},
+                             .joint = LD_HINGE_REVOLUTE,
+                             .axis = {0, 0, 1}};
+    const ld_mstmm_description d = {
+        .elements = e, .element_count = 3, .loops = &l, .loop_count = 1, .gravity = {0, -9.81, 0}};
+    double q[3] = {1, -1, 1}, u[3] = {1, -1, 1}, u_dot[3];
+    ld_mstmm *system;
+    ld_error error;
+    if (ld_mstmm_build(&d, &system, &error) || ld_mstmm_assemble(system, q, u, NULL, NULL, &error))
+        fail_msg("%s", error.text);
+    long before = allocations;
+    for (int k = 0; k < 100; k++) {
+        q[0] = q[2] = 0.01 * k + 1e-5;
+        q[1] = -q[0];
+        assert_int_equal(ld_mstmm_accelerations(system, q, u, NULL, NULL, u_dot, &error), LD_OK);
+        assert_int_equal(ld_mstmm_project(system, q, u, &error), LD_OK);
+    }
+    CHECK_BELOW("100 evaluations and projections of a loop: allocations",
+                (double)(allocations - before), 0);
+    ld_mstmm_free(system);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_allocates_nothing),
         cmocka_unit_test(a_run_does_not_underflow),
         cmocka_unit_test(accelerations_of_a_chain_allocate_nothing),
+        cmocka_unit_test(closed_loops_allocate_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

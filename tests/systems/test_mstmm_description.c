@@ -40,16 +40,16 @@ static void test_bad_descriptions(void **state)
     refused(e, 3, "element 'b': its parent 'x' does not exist");
     e[1].parent = "c";
     refused(e, 3,
-            "element 'b' is its own ancestor: a circle never reaches the ground (closed loops are "
-            "not supported)");
+            "element 'b' is its own ancestor: a circle never reaches the ground; joints that close "
+            "loops are described apart");
     e[1].parent = "b";
     refused(e, 3,
-            "element 'b' is its own ancestor: a circle never reaches the ground (closed loops are "
-            "not supported)");
+            "element 'b' is its own ancestor: a circle never reaches the ground; joints that close "
+            "loops are described apart");
     e[1] = body("a", NULL);
     refused(e, 3,
-            "element 'a' is given twice: a body has one inboard hinge, closed loops are not "
-            "supported");
+            "element 'a' is given twice: a body has one hinge that carries it, its other joints "
+            "close loops");
     e[1] = body("", "a");
     refused(e, 3, "element number 2 needs a name of 1 to 63 letters");
 
@@ -112,6 +112,50 @@ static void test_bad_descriptions(void **state)
         "element 'b': a beam has at most 24 bending modes a plane, 8 torsional and 8 axial ones");
 }
 
+static void loop_refused(const ld_mstmm_loop *loops, int count, const char *sentence)
+{
+    const ld_mstmm_element e[2] = {body("a", NULL), body("b", "a")};
+    const ld_mstmm_description d = {
+        .elements = e, .element_count = 2, .loops = loops, .loop_count = count};
+    ld_mstmm *system = NULL;
+    ld_error error = {0};
+    assert_int_equal(ld_mstmm_build(&d, &system, &error), LD_ERR_INPUT);
+    if (strcmp(error.text, sentence) != 0)
+        fail_msg("got:  %s\nnot:  %s", error.text, sentence);
+    assert_null(system);
+}
+
+static void test_bad_loops(void **state)
+{
+    (void)state;
+    const ld_mstmm_loop good = {
+        .name = "pin", .second = {.element = "b"}, .joint = LD_HINGE_REVOLUTE, .axis = {0, 0, 1}};
+    ld_mstmm_loop l[2] = {good, good};
+    loop_refused(l, 2, "loop 'pin' is given twice");
+    l[1].name = "";
+    loop_refused(l, 2, "loop number 2 needs a name of 1 to 63 letters");
+    l[0].second.element = "c";
+    loop_refused(l, 1, "loop 'pin': its element 'c' does not exist");
+    l[0] = good;
+    l[0].second.element = NULL;
+    loop_refused(l, 1, "loop 'pin' joins the ground with itself");
+    l[0].first.element = l[0].second.element = "b";
+    loop_refused(l, 1, "loop 'pin' joins 'b' with itself");
+    l[0] = good;
+    l[0].joint = LD_HINGE_FREE;
+    loop_refused(l, 1, "loop 'pin': a free joint holds nothing");
+    l[0].joint = (ld_hinge)77;
+    loop_refused(l, 1, "loop 'pin': no such joint");
+    l[0] = good;
+    l[0].axis[2] = 0;
+    loop_refused(l, 1, "loop 'pin': its revolute joint needs an axis");
+    l[0].axis[2] = NAN;
+    loop_refused(l, 1, "loop 'pin': a value is not finite");
+    l[0] = good;
+    l[0].damping[0] = -1;
+    loop_refused(l, 1, "loop 'pin': stiffness and damping of its joint must not be negative");
+}
+
 // A point mass on its own axis: nothing resists the turn.
 static void test_singular_hinges(void **state)
 {
@@ -151,6 +195,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bad_descriptions),
+        cmocka_unit_test(test_bad_loops),
         cmocka_unit_test(test_singular_hinges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

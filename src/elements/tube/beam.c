@@ -195,6 +195,47 @@ int beam_reduce(beam *self, const double *tau_q, spatial_matrix *Z, spatial *zf)
     return 0;
 }
 
+void beam_carry_unit(const beam *self, int output, spatial F, double *Q)
+{
+    const double *L = self->output[output].section.L;
+    for (int i = 0; i < self->n; i++)
+        Q[i] += spatial_dot(column(self, L, i), F);
+}
+
+// y = G^-1 Q_q, Q_r -= Y^T y
+void beam_reduce_unit(const beam *self, double *Q)
+{
+    int n = self->n;
+    for (int i = 6; i < n; i++) {
+        const double *row = self->M + i * n;
+        double sum = Q[i];
+        for (int k = 6; k < i; k++)
+            sum -= row[k] * Q[k];
+        Q[i] = sum / row[i];
+        for (int k = 0; k < 6; k++)
+            Q[k] -= row[k] * Q[i];
+    }
+}
+
+void beam_hold(beam *self)
+{
+    int n = self->n;
+    for (int i = 6; i < n; i++) {
+        memset(self->M + i * n, 0, (size_t)n * sizeof *self->M);
+        self->M[i * n + i] = 1;
+        self->h[i] = 0;
+        for (int k = 0; k < 6; k++)
+            self->M[k * n + i] = 0;
+    }
+}
+
+void beam_still(beam *self)
+{
+    memset(self->h, 0, (size_t)self->n * sizeof *self->h);
+    for (int i = 0; i < self->output_count; i++)
+        memset(self->output[i].section.gamma, 0, sizeof self->output[i].section.gamma);
+}
+
 // q_ddot = G^-T (y - Y [a; alpha])
 void beam_accelerate(beam *self, spatial x, double *q_ddot)
 {

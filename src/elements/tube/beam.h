@@ -47,6 +47,16 @@ void beam_load(beam *self, int output, const spatial_matrix *Z, spatial zf);
 // Returns 0, or 1 where the modal mass matrix is not positive definite.
 int beam_reduce(beam *self, const double *tau_q, spatial_matrix *Z, spatial *zf);
 
+// The same with unit loads, after the reduced step. What a wrench F at an output (in R) does along
+// the beam's speeds is added to Q [n].
+void beam_carry_unit(const beam *self, int output, spatial F, double *Q);
+// Q's share of the modes: its modal part becomes G^-1 Q_q, its first six what passes to the input.
+void beam_reduce_unit(const beam *self, double *Q);
+// Before the reduced step: the modes hold, and nothing acts along them.
+void beam_hold(beam *self);
+// Before the reduced step: no forces of motion and springs.
+void beam_still(beam *self);
+
 // After the reduced step: q_ddot from the input end's acceleration x, in R.
 void beam_accelerate(beam *self, spatial x, double *q_ddot);
 

@@ -2,7 +2,9 @@
 //
 // With small displacements d in the sense of the speeds, M d_ddot + C d_dot + K d = 0: M column by
 // column from inverse dynamics (exact), C from the dampers (all velocity terms of the motion are of
-// second order at rest), K from differences of the static forces.
+// second order at rest), K from differences of the static forces. Prescribed hinges and loops leave
+// the directions d = N z: N^T M N and so on, with the forces that keep the loops closed in the
+// static forces, of constant size along directions that turn with the bodies.
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +12,8 @@
 #include "math/matrices/general_eigen.h"
 #include "math/matrices/lapack.h"
 #include "math/vectors/rotation_vector.h"
-#include "systems/multibody/multibody.h"
+#include "systems/multibody/closing.h"
+#include "systems/multibody/loop_rows.h"
 
 // Step of the differences [rad], [m] and its fourth-order weights.
 static const double step = 2e-3;
@@ -42,8 +45,11 @@ static void displace(const ld_mstmm *s, const double *q, int speed, double size,
 
 // Arrays of one analysis, n x n column by column.
 typedef struct linear {
-    int n;
+    int n;    // directions
+    int full; // speeds
     double *M, *C, *K, *q, *zero, *unit, *force, *other;
+    double *basis; // [n][full]; not used where all speeds are free
+    bool reduced;
     double *state, *re, *im, *vectors; // of the eigenproblem of order 2 n
 } linear;
 
@@ -65,6 +71,49 @@ static void damping_matrix(const ld_mstmm *s, linear *l)
         for (int k = 0; k < tube->na; k++, at++)
             l->C[at * l->n + at] = tube->dmp_a[k];
     }
+}
+
+// The forces that hold the speeds u with the rates u_dot, the loops' forces in them, along the
+// directions.
+static void forces_along(ld_mstmm *s, const linear *l, const double *q, const double *u,
+                         const double *u_dot, double *along)
+{
+    multibody_needed_forces(s, q, u, u_dot, l->force);
+    for (int i = 0; i < l->n; i++) {
+        along[i] = 0;
+        for (int k = 0; k < l->full; k++)
+            along[i] += l->basis[i * l->full + k] * l->force[k];
+    }
+}
+
+// With directions: the loops' forces are those of the latest evaluation.
+static void linearise_reduced(ld_mstmm *s, const double *q, linear *l)
+{
+    const int n = l->n;
+    double *column = l->other;
+    for (int j = 0; j < n; j++) {
+        const double *d = l->basis + (size_t)j * (size_t)l->full;
+        double *M = l->M + n * j, *C = l->C + n * j, *K = l->K + n * j;
+        forces_along(s, l, q, l->zero, d, M);
+        forces_along(s, l, q, l->zero, l->zero, column);
+        for (int i = 0; i < n; i++)
+            M[i] -= column[i];
+        // what is odd in the speeds
+        for (int k = 0; k < l->full; k++)
+            l->unit[k] = -d[k];
+        forces_along(s, l, q, d, l->zero, C);
+        forces_along(s, l, q, l->unit, l->zero, column);
+        for (int i = 0; i < n; i++)
+            C[i] = 0.5 * (C[i] - column[i]);
+        static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1, -8, 8, -1};
+        for (int k = 0; k < 4; k++) {
+            multibody_displace(s, q, at[k] * step, d, l->q);
+            forces_along(s, l, l->q, l->zero, l->zero, column);
+            for (int i = 0; i < n; i++)
+                K[i] += weight[k] * column[i] / (12 * step);
+        }
+    }
+    memset(l->unit, 0, (size_t)l->full * sizeof *l->unit);
 }
 
 static void linearise(ld_mstmm *s, const double *q, linear *l)
@@ -96,13 +145,28 @@ static ld_status check_equilibrium(ld_mstmm *s, const double *q, const double *t
                                    ld_error *error)
 {
     double off = 0, size = 0;
-    ld_mstmm_forces(s, q, l->zero, l->zero, NULL, l->force);
+    if (l->reduced) {
+        ld_status status = ld_mstmm_accelerations(s, q, l->zero, tau, NULL, l->other, error);
+        if (status)
+            return status;
+        multibody_needed_forces(s, q, l->zero, l->zero, l->force);
+    } else {
+        ld_mstmm_forces(s, q, l->zero, l->zero, NULL, l->force);
+    }
     for (int i = 1; i <= s->node_count; i++)
         size = fmax(size, fmax(v3_norm(s->wrench[i].linear), v3_norm(s->wrench[i].angular)));
-    for (int k = 0; k < l->n; k++) {
+    for (int k = 0; k < l->full; k++) {
         double held = tau ? tau[k] : 0;
-        off = fmax(off, fabs(l->force[k] - held));
+        l->force[k] -= held;
+        if (!l->reduced)
+            off = fmax(off, fabs(l->force[k]));
         size = fmax(size, fabs(held));
+    }
+    for (int i = 0; l->reduced && i < l->n; i++) {
+        double along = 0;
+        for (int k = 0; k < l->full; k++)
+            along += l->basis[i * l->full + k] * l->force[k];
+        off = fmax(off, fabs(along));
     }
     if (!(off <= 1e-6 * fmax(size, 1e-9)))
         return ld_fail(error, LD_ERR_INPUT,
@@ -148,14 +212,26 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+// Entry i of the displacement of eigenvector k.
+static double entry_of(const linear *l, int i, int k)
+{
+    const double *vector = l->vectors + (size_t)(2 * l->n) * (size_t)k;
+    if (!l->reduced)
+        return vector[i];
+    double sum = 0;
+    for (int j = 0; j < l->n; j++)
+        sum += l->basis[j * l->full + i] * vector[j];
+    return sum;
+}
+
 // Displacement part of eigenvector k, its largest entry turned to 1.
 static void shape_of(const linear *l, int k, double *out)
 {
-    int n = l->n, width = 2 * n, best = 0;
+    int n = l->full, best = 0;
     bool vibrates = l->im[k] != 0;
     for (int i = 0; i < n; i++) {
-        out[2 * i] = l->vectors[i + width * k];
-        out[2 * i + 1] = vibrates ? l->vectors[i + width * (k + 1)] : 0;
+        out[2 * i] = entry_of(l, i, k);
+        out[2 * i + 1] = vibrates ? entry_of(l, i, k + 1) : 0;
         if (hypot(out[2 * i], out[2 * i + 1]) > hypot(out[2 * best], out[2 * best + 1]))
             best = i;
     }
@@ -185,7 +261,7 @@ static int collect(const linear *l, ranked *order, ld_mstmm_mode *modes, double 
                                        .damping = size > 0 ? -l->re[k] / size : 0,
                                        .rate = l->re[k]};
         if (shapes)
-            shape_of(l, k, shapes + (size_t)count * 2 * (size_t)l->n);
+            shape_of(l, k, shapes + (size_t)count * 2 * (size_t)l->full);
         count++;
     }
     return count;
@@ -198,9 +274,11 @@ ld_status ld_mstmm_vibration(ld_mstmm *s, const double *q, const double *tau, ld
     *count = 0;
     if (n == 0)
         return LD_OK;
-    linear l = {.n = s->u_count};
+    linear l = {.n = s->u_count, .full = s->u_count, .reduced = s->loop_count > 0};
+    for (int e = 0; e < s->element_count; e++)
+        l.reduced |= s->prescribed[e];
     double *block =
-        calloc(3 * square + (size_t)s->q_count + 4 * n + 8 * square + 4 * n, sizeof *block);
+        calloc(3 * square + (size_t)s->q_count + 4 * n + 9 * square + 4 * n, sizeof *block);
     ranked *order = calloc(2 * n, sizeof *order);
     if (!block || !order) {
         free(block);
@@ -208,20 +286,26 @@ ld_status ld_mstmm_vibration(ld_mstmm *s, const double *q, const double *tau, ld
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a vibration analysis");
     }
     double *next = block;
-    double **parts[] = {&l.M,     &l.C,     &l.K,     &l.q,       &l.zero, &l.unit,
-                        &l.force, &l.other, &l.state, &l.vectors, &l.re,   &l.im};
-    size_t sizes[] = {square, square, square,     (size_t)s->q_count, n,     n,
-                      n,      n,      4 * square, 4 * square,         2 * n, 2 * n};
+    double **parts[] = {&l.M,     &l.C,     &l.K,       &l.q,  &l.zero, &l.unit, &l.force,
+                        &l.other, &l.state, &l.vectors, &l.re, &l.im,   &l.basis};
+    size_t sizes[] = {square, square, square, (size_t)s->q_count, n,
+                      n,      n,      n,      4 * square,         4 * square,
+                      2 * n,  2 * n,  square};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         *parts[k] = next;
         next += sizes[k];
     }
-    ld_status status = check_equilibrium(s, q, tau, &l, error);
-    if (!status) {
-        linearise(s, q, &l);
+    ld_status status = l.reduced ? ld_mstmm_freedoms(s, q, l.basis, &l.n, error) : LD_OK;
+    if (!status)
+        status = check_equilibrium(s, q, tau, &l, error);
+    if (!status && l.n > 0) {
+        if (l.reduced)
+            linearise_reduced(s, q, &l);
+        else
+            linearise(s, q, &l);
         status = solve(&l, error);
     }
-    if (!status)
+    if (!status && l.n > 0)
         *count = collect(&l, order, modes, shapes);
     free(block);
     free(order);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "math/vectors/mat3.h"
-#include "model/model.h"
+#include "model/blocks/limits.h"
 
 // ---- hinges
 
@@ -20,6 +20,39 @@ const hinge_kind hinge_table[] = {
     [LD_HINGE_FREE] = {"free", 7, 6, 0},
     [LD_HINGE_PLANAR] = {"planar", 3, 3, 2},
 };
+
+// ---- axes
+
+m3 description_axes_along(v3 axis)
+{
+    v3 z = v3_scale(1 / v3_norm(axis), axis);
+    v3 other = fabs(z.x) < 0.6 ? v3_make(1, 0, 0) : v3_make(0, 1, 0);
+    if (z.z == 1)
+        return m3_identity();
+    v3 x = v3_cross(other, z);
+    x = v3_scale(1 / v3_norm(x), x);
+    return m3_columns(x, v3_cross(z, x), z);
+}
+
+m3 description_plane_axes(const double axis[3], const double axis_2[3])
+{
+    v3 normal = v3_from(axis), first = v3_from(axis_2);
+    normal = v3_scale(1 / v3_norm(normal), normal);
+    first = v3_axpy(first, -v3_dot(first, normal), normal);
+    first = v3_scale(1 / v3_norm(first), first);
+    return m3_columns(first, v3_cross(normal, first), normal);
+}
+
+void description_joint_axes(ld_hinge joint, const double axis[3], const double axis_2[3],
+                            m3 axes[2])
+{
+    axes[0] = m3_identity();
+    if (joint == LD_HINGE_PLANAR)
+        axes[0] = description_plane_axes(axis, axis_2);
+    else if (hinge_table[joint].axes > 0)
+        axes[0] = description_axes_along(v3_from(axis));
+    axes[1] = joint == LD_HINGE_UNIVERSAL ? description_axes_along(v3_from(axis_2)) : axes[0];
+}
 
 // ---- checks of one element
 
@@ -43,24 +76,25 @@ static bool is_inertia(const double J[6])
            yy * zz - yz * yz >= -tiny * half && determinant >= -tiny * half * half;
 }
 
-static ld_status check_hinge(const ld_mstmm_element *e, ld_error *error)
+ld_status description_check_joint(const described_joint *j, ld_error *error)
 {
-    if ((unsigned)e->hinge > LD_HINGE_PLANAR)
-        return ld_fail(error, LD_ERR_INPUT, "element '%s': no such hinge", e->name);
-    int axes = hinge_table[e->hinge].axes, speeds = hinge_table[e->hinge].speeds;
-    v3 first = v3_from(e->axis), second = v3_from(e->axis_2);
-    if ((axes > 0 && !(v3_norm(first) > 0)) || (axes > 1 && !(v3_norm(second) > 0)))
-        return ld_fail(error, LD_ERR_INPUT, "element '%s': its %s hinge needs %s", e->name,
-                       hinge_table[e->hinge].name, axes > 1 ? "two axes" : "an axis");
-    if (axes > 1 && !(v3_norm(v3_cross(first, second)) > 1e-6 * v3_norm(first) * v3_norm(second)))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "element '%s': the two axes of its %s hinge are parallel", e->name,
-                       hinge_table[e->hinge].name);
-    for (int k = 0; k < speeds; k++)
-        if (!(e->stiffness[k] >= 0) || !(e->damping[k] >= 0))
+    const char *sort = j->closes ? "loop" : "element", *hinge = j->closes ? "joint" : "hinge";
+    if ((unsigned)j->kind > LD_HINGE_PLANAR)
+        return ld_fail(error, LD_ERR_INPUT, "%s '%s': no such %s", sort, j->name, hinge);
+    const hinge_kind *kind = &hinge_table[j->kind];
+    v3 first = v3_from(j->axis), second = v3_from(j->axis_2);
+    if ((kind->axes > 0 && !(v3_norm(first) > 0)) || (kind->axes > 1 && !(v3_norm(second) > 0)))
+        return ld_fail(error, LD_ERR_INPUT, "%s '%s': its %s %s needs %s", sort, j->name,
+                       kind->name, hinge, kind->axes > 1 ? "two axes" : "an axis");
+    if (kind->axes > 1 &&
+        !(v3_norm(v3_cross(first, second)) > 1e-6 * v3_norm(first) * v3_norm(second)))
+        return ld_fail(error, LD_ERR_INPUT, "%s '%s': the two axes of its %s %s are parallel", sort,
+                       j->name, kind->name, hinge);
+    for (int k = 0; k < kind->speeds; k++)
+        if (!(j->stiffness[k] >= 0) || !(j->damping[k] >= 0))
             return ld_fail(error, LD_ERR_INPUT,
-                           "element '%s': stiffness and damping of its hinge must not be negative",
-                           e->name);
+                           "%s '%s': stiffness and damping of its %s must not be negative", sort,
+                           j->name, hinge);
     return LD_OK;
 }
 
@@ -76,7 +110,9 @@ static ld_status check_element(const ld_mstmm_element *e, int index, ld_error *e
                  description_all_finite(e->center, 3) && description_all_finite(e->inertia, 6);
     if (!known)
         return ld_fail(error, LD_ERR_INPUT, "element '%s': a value is not finite", e->name);
-    ld_status status = check_hinge(e, error);
+    const described_joint hinge = {e->name,   false,        e->hinge,  e->axis,
+                                   e->axis_2, e->stiffness, e->damping};
+    ld_status status = description_check_joint(&hinge, error);
     if (status || e->beam)
         return status;
     if (e->mass < 0)
@@ -112,8 +148,8 @@ static ld_status link_parents(tree *t, const ld_mstmm_element *elements, named *
         if (!compare_names(&names[i - 1], &names[i]))
             return ld_fail(
                 error, LD_ERR_INPUT,
-                "element '%s' is given twice: a body has one inboard hinge, closed loops "
-                "are not supported",
+                "element '%s' is given twice: a body has one hinge that carries it, its other "
+                "joints close loops",
                 names[i].name);
     for (int i = 0; i <= t->count; i++)
         t->first[i] = -1;
@@ -163,8 +199,8 @@ static ld_status order_elements(tree *t, const ld_mstmm_element *elements, ld_er
         seen[lost] = true;
     free(seen);
     return ld_fail(error, LD_ERR_INPUT,
-                   "element '%s' is its own ancestor: a circle never reaches the ground (closed "
-                   "loops are not supported)",
+                   "element '%s' is its own ancestor: a circle never reaches the ground; joints "
+                   "that close loops are described apart",
                    elements[lost].name);
 }
 

@@ -1,5 +1,6 @@
 // Forward dynamics.
-#include "systems/multibody/multibody.h"
+#include "systems/multibody/closing.h"
+#include "systems/multibody/loop_rows.h"
 
 ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
                                  const double *tau, const double *wrench, double *u_dot,
@@ -7,9 +8,18 @@ ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double
 {
     tau = multibody_hinge_forces(system, q, u, tau);
     multibody_move(system, q, u);
+    if (system->loop_count > 0) {
+        loops_place(system, u);
+        wrench = loops_load(system, wrench);
+    }
     int singular = system->sweep->inwards(system, tau, wrench);
     if (singular)
         return multibody_singular(system, singular, error);
+    if (system->loop_count > 0) {
+        ld_status status = loops_close(system, error);
+        if (status)
+            return status;
+    }
     system->sweep->outwards(system, u_dot);
     return LD_OK;
 }

@@ -2,7 +2,8 @@
 #include <string.h>
 
 #include "math/vectors/rotation_vector.h"
-#include "systems/multibody/multibody.h"
+#include "systems/multibody/closing.h"
+#include "systems/multibody/loop_rows.h"
 
 // ---- inverse dynamics
 
@@ -96,8 +97,8 @@ static void carry(ld_mstmm *system, const double *u_dot, const double *wrench, d
             F[i] = spatial_turn(
                 A_R, beam_needed(b->body, spatial_turn_back(A_R, x[i]), u_dot + b->modes_u));
         }
-        if (wrench && n->element >= 0) {
-            const double *applied = wrench + 6 * n->element;
+        if (wrench && n->load >= 0) {
+            const double *applied = wrench + 6 * n->load;
             F[i].linear = v3_sub(F[i].linear, v3_from(applied));
             F[i].angular = v3_sub(F[i].angular, v3_from(applied + 3));
         }
@@ -121,24 +122,49 @@ static void carry(ld_mstmm *system, const double *u_dot, const double *wrench, d
     }
 }
 
+// Less what springs and dampers of the hinges give.
+static void leave_out_springs(ld_mstmm *system, const double *q, const double *u, double *tau)
+{
+    if (!system->has_springs)
+        return;
+    const double *given = multibody_spring_forces(system, q, u);
+    for (int k = 0; k < system->u_count; k++)
+        tau[k] -= given[k];
+}
+
 void ld_mstmm_forces(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
                      const double *wrench, double *tau)
 {
     multibody_move(system, q, u);
-    carry(system, u_dot, wrench, tau);
-
-    // less what springs and dampers give
-    if (system->has_springs) {
-        const double *given = multibody_spring_forces(system, q, u);
-        for (int k = 0; k < system->u_count; k++)
-            tau[k] -= given[k];
+    if (system->loop_count > 0) {
+        loops_place(system, u);
+        wrench = loops_load(system, wrench);
     }
+    carry(system, u_dot, wrench, tau);
+    leave_out_springs(system, q, u, tau);
+}
+
+void multibody_needed_forces(ld_mstmm *system, const double *q, const double *u,
+                             const double *u_dot, double *tau)
+{
+    multibody_move(system, q, u);
+    loops_place(system, u);
+    loops_load(system, NULL);
+    loops_make_rows(system, LOOPS_PLACES);
+    for (int i = 0; i < system->loop_count; i++)
+        loop_sum_forces(&system->loop[i], &system->loop_work[i]);
+    carry(system, u_dot, loops_load_all(system, NULL), tau);
+    leave_out_springs(system, q, u, tau);
 }
 
 void ld_mstmm_reactions(ld_mstmm *system, const double *q, const double *u, const double *u_dot,
                         const double *wrench, double *reaction)
 {
     multibody_move(system, q, u);
+    if (system->loop_count > 0) {
+        loops_place(system, u);
+        wrench = loops_load_all(system, wrench);
+    }
     carry(system, u_dot, wrench, NULL);
     for (int e = 0; e < system->element_count; e++) {
         spatial F = system->wrench[system->element_node[e]];
@@ -154,6 +180,7 @@ ld_mstmm_energies ld_mstmm_energy(ld_mstmm *system, const double *q, const doubl
     ld_mstmm_energies sum = {.elastic = multibody_spring_energy(system, q)};
     multibody_move(system, q, u);
     multibody_place(system, u);
+    sum.elastic += loops_energy(system);
     for (int i = 1; i <= system->node_count; i++) {
         const node *n = &system->node[i];
         m3 A = node_axes(system, i);

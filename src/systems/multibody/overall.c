@@ -413,8 +413,12 @@ static ld_status check_size(const ld_mstmm *s, int unknowns, ld_error *error)
             return ld_fail(error, LD_ERR_INPUT,
                            "the overall transfer equation takes beams with one output; use the "
                            "reduced sweep");
+    if (s->loop_count > 0)
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "the overall transfer equation takes no closed loops; use the reduced sweep");
     for (int i = 1; i <= s->node_count; i++)
-        if (s->node[i].pass == PASS_GIVEN)
+        if (s->pass[i] == PASS_GIVEN)
             return ld_fail(error, LD_ERR_INPUT,
                            "the overall transfer equation takes no prescribed hinges; use the "
                            "reduced sweep");

@@ -246,6 +246,7 @@ LD_INLINE int pass_axis(const share *own, share *passing, axis_record *record,
     record->V_a = V.a;
     record->V_alpha = V.alpha;
     record->rate = rate[0];
+    record->inverse = inverse[0];
     if (onward) {
         add_bias(&s, motion->bias_a, motion->bias_alpha, turns);
         shift(&s, &r);
@@ -318,16 +319,15 @@ static int eliminate_several(ld_mstmm *system, int i, share *s, const double *ta
     }
     int singular = is_free ? eliminate(Z, F, inverse, 6) : eliminate(Z, F, inverse, 3);
 
-    // back substitution, a ball's when its body's a is known; and what is left for the parent
-    for (int k = is_free ? 5 : 2; k >= 0; k--) {
-        record[k] = (axis_record){none, none, F[k] * inverse[k]};
-        for (int j = k + 1; is_free && j < 6; j++)
-            record[k].rate -= Z[j][k] * record[j].rate;
-        for (int j = k + 1; !is_free && j < 3; j++)
+    // the factor's columns, for the back substitution when the body's a is known
+    for (int k = 0; k < (is_free ? 6 : 3); k++) {
+        record[k] = (axis_record){none, none, F[k] * inverse[k], inverse[k]};
+        for (int j = k + 1; j < 3; j++)
             record[k].V_alpha[j] = Z[j][k];
-        if (!is_free)
-            record[k].V_a = (v4d){Z[3][k], Z[4][k], Z[5][k], 0};
+        for (int j = k < 3 ? 3 : k + 1; j < 6; j++)
+            record[k].V_a[j - 3] = Z[j][k];
     }
+    // what is left for the parent
     *s = (share){.f = f, .m = m};
     if (!is_free) {
         sym3 A = {Z[3][3], Z[4][3], Z[5][3], Z[4][4], Z[5][4], Z[5][5]};
@@ -345,7 +345,7 @@ static void give_motion(ld_mstmm *system, int i, const double *tau)
     const double *given = tau + n->u;
     const v4d none = v4d_all(0);
     for (int k = 0; k < node_speeds(n); k++)
-        system->axis[n->axis + k] = (axis_record){none, none, given[k]};
+        system->axis[n->axis + k] = (axis_record){none, none, given[k], 0};
     if (n->hinge == NODE_FREE) {
         v4d H[3];
         hinge_axes(system, n, H);
@@ -382,6 +382,8 @@ static int reduce_beam(ld_mstmm *system, int i, const double *tau, share *s)
     const node_beam *b = &system->beam_of[i];
     spatial_matrix Z_R, Z;
     spatial zf;
+    if (system->beams_rigid)
+        beam_hold(b->body);
     if (beam_reduce(b->body, tau + b->modes_u, &Z_R, &zf))
         return 1;
     Z = spatial_matrix_turn(A_R, &Z_R);
@@ -412,7 +414,7 @@ LD_OUTLINE int pass_otherwise(ld_mstmm *system, int i, const share *own, const d
     const node *n = &system->node[i];
     const node_motion *motion = &system->motion[i];
     share *passing = system->passing;
-    const bool given = n->pass == PASS_GIVEN;
+    const bool given = system->pass[i] == PASS_GIVEN;
     int singular = 0;
     add_share(passing, own);
     if (n->body == NODE_SECTION) {
@@ -421,7 +423,7 @@ LD_OUTLINE int pass_otherwise(ld_mstmm *system, int i, const share *own, const d
     }
     if (given)
         give_motion(system, i, tau);
-    else if (n->pass == PASS_SEVERAL)
+    else if (system->pass[i] == PASS_SEVERAL)
         singular = eliminate_several(system, i, passing, tau);
     lanes_cycle r = lanes_cycle_of(motion->r);
     add_bias(passing, motion->bias_a, given ? motion->bias_alpha : v4d_all(0), given);
@@ -448,9 +450,9 @@ static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
         share *own = &system->own[i % MULTIBODY_BLOCK];
         if (n->body == NODE_BEAM)
             singular = reduce_beam(system, i, tau, own);
-        if (wrench && n->element >= 0) {
-            own->f -= v4d_from_v3(v3_from(wrench + 6 * n->element));
-            own->m -= v4d_from_v3(v3_from(wrench + 6 * n->element + 3));
+        if (wrench && n->load >= 0) {
+            own->f -= v4d_from_v3(v3_from(wrench + 6 * n->load));
+            own->m -= v4d_from_v3(v3_from(wrench + 6 * n->load + 3));
         }
         if (n->branch >= 0)
             add_share(own, &system->branch[n->branch]);
@@ -458,9 +460,9 @@ static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
         // its hinge, and on to the parent
         axis_record *record = &system->axis[n->axis];
         const bool onward = n->parent > 0;
-        if (n->pass == PASS_TURN) {
+        if (system->pass[i] == PASS_TURN) {
             singular |= pass_axis(own, passing, record, motion, tau[n->u], true, onward);
-        } else if (n->pass == PASS_SLIDE) {
+        } else if (system->pass[i] == PASS_SLIDE) {
             singular |= pass_axis(own, passing, record, motion, tau[n->u], false, onward);
         } else {
             singular |= pass_otherwise(system, i, own, tau);
@@ -505,8 +507,14 @@ static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_l
     if (n->hinge == NODE_FREE) {
         v4d H[3];
         hinge_axes(system, n, H);
-        own.a = (v4d){record[3].rate, record[4].rate, record[5].rate, 0};
-        own.alpha = (v4d){record[0].rate, record[1].rate, record[2].rate, 0};
+        double rate[6];
+        for (int k = 5; k >= 0; k--) {
+            rate[k] = record[k].rate;
+            for (int j = k + 1; j < 6; j++)
+                rate[k] -= (j < 3 ? record[k].V_alpha[j] : record[k].V_a[j - 3]) * rate[j];
+        }
+        own.a = (v4d){rate[3], rate[4], rate[5], 0};
+        own.alpha = (v4d){rate[0], rate[1], rate[2], 0};
         x.a += store_along(H, own.a - x.a, to);
         to += 3;
     } else {
@@ -553,19 +561,19 @@ static void outwards(ld_mstmm *system, double *u_dot)
                 x = n->parent ? system->branch_x[system->node[n->parent].branch] : base;
             v4d a = (x.a + v4d_cross(x.alpha, motion->r)) + motion->bias_a;
             v4d alpha = x.alpha + motion->bias_alpha;
-            if (n->pass == PASS_TURN) {
+            if (system->pass[i] == PASS_TURN) {
                 v4d rate = solve_axis(&system->axis[n->axis], x);
                 x = (spatial_lanes){a, alpha + motion->A[2] * rate};
                 u_dot[n->u] = rate[0];
-            } else if (n->pass == PASS_SLIDE) {
+            } else if (system->pass[i] == PASS_SLIDE) {
                 v4d rate = solve_axis(&system->axis[n->axis], x);
                 x = (spatial_lanes){a + motion->A[2] * rate, alpha};
                 u_dot[n->u] = rate[0];
             } else {
                 x = (spatial_lanes){a, alpha};
-                if (n->pass == PASS_SEVERAL)
+                if (system->pass[i] == PASS_SEVERAL)
                     x = accelerate_several(system, i, x, u_dot);
-                else if (n->pass == PASS_GIVEN)
+                else if (system->pass[i] == PASS_GIVEN)
                     report_given(system, n, u_dot);
             }
             if (n->body == NODE_BEAM)
@@ -576,4 +584,6 @@ static void outwards(ld_mstmm *system, double *u_dot)
     }
 }
 
-const sweep SWEEP_NAME = {move, inwards, outwards};
+#include "systems/multibody/loop_code.h"
+
+const sweep SWEEP_NAME = {move, inwards, outwards, propagate, apply};
