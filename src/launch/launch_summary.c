@@ -222,13 +222,14 @@ static void note_rests(ld_summary *summary)
 {
     const double *taken = summary->equilibrium.taken, *other = summary->equilibrium.other;
     if (summary->equilibrium.rests_elsewhere)
-        summary_note(summary,
-                     "the rocket has two equilibria in its guide: the run begins with its rear at "
-                     "y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; the other is "
-                     "%.3f, %.3f mm, %.3f, %.3f mrad",
-                     printed_milli(taken[0]), printed_milli(taken[1]), printed_milli(taken[2]),
-                     printed_milli(taken[3]), printed_milli(other[0]), printed_milli(other[1]),
-                     printed_milli(other[2]), printed_milli(other[3]));
+        summary_note(
+            summary,
+            "the rocket has more than one equilibrium in its guide: the run begins with its "
+            "rear at y, z = %.3f, %.3f mm, turned by psi, theta = %.3f, %.3f mrad; another "
+            "is %.3f, %.3f mm, %.3f, %.3f mrad",
+            printed_milli(taken[0]), printed_milli(taken[1]), printed_milli(taken[2]),
+            printed_milli(taken[3]), printed_milli(other[0]), printed_milli(other[1]),
+            printed_milli(other[2]), printed_milli(other[3]));
 }
 
 // Of a launch that came to its end, the first measure that has no value.

@@ -782,35 +782,68 @@ static double find_on_surfaces(problem *the, const double *start, double depth,
     return next;
 }
 
-// Whether a rocket that leans in an upright guide would also rest on its other side: started there,
-// mirrored at the guide line, it stays away from where it rests in y.
+enum { PLACES = 4 }; // of the rocket across its guide: y, z, psi, theta
+
+// Places from the guide line with its rear and its foremost shoe, each on the same side or
+// mirrored.
+static void mirror(const launch_state *self, const double off[PLACES], double rear, double front,
+                   double to[SHOE_FREEDOMS])
+{
+    double span = self->rocket->adaptor[self->rocket->adaptor_count - 1].at;
+    double front_y = front * (off[0] + span * off[2]), front_z = front * (off[1] - span * off[3]);
+    to[0] = rear * off[0];
+    to[1] = rear * off[1];
+    to[2] = (front_y - to[0]) / span;
+    to[3] = -(front_z - to[1]) / span;
+}
+
+// Whether a rocket that is let go at `from` comes to rest, at `to` from the guide line, elsewhere
+// than at `off`, where it rests in y.
+static bool rests_elsewhere(const problem *the, const double *start, double accepted,
+                            const double *y, const double *from, const double off[PLACES],
+                            double to[PLACES])
+{
+    const double apart = 1e-5; // [m, rad]
+    const launching_system *launching = &the->self->launcher.launching;
+    const int at = launching->layout.x;
+    problem other = *the;
+    carried_directions carried;
+    double found[LD_MAX_STATES], depth = the->self->rocket->start_at - y[at + X_S];
+    double reached = find_beside(&other, start, depth, from, &carried, accepted, found);
+    if (!is_at_rest(&other, found, reached, accepted))
+        return false;
+    bool elsewhere = false;
+    for (int i = 0; i < PLACES; i++) {
+        to[i] = found[at + X_Y + i] - y[at + X_Y + i] + off[i];
+        elsewhere |= fabs(to[i] - off[i]) > apart;
+    }
+    return elsewhere;
+}
+
+// Whether a rocket that leans in an upright guide would also rest elsewhere: started on the other
+// side of the guide line, then with its rear or its front there, it stays away from where it rests
+// in y.
 static void look_elsewhere(const problem *the, const double *start, double accepted,
                            const double *y, ld_equilibrium_summary *summary)
 {
-    enum { PLACES = sizeof summary->taken / sizeof *summary->taken };
-    const double apart = 1e-5; // [m, rad]
+    static const double sides[][2] = {{-1, -1}, {-1, 1}, {1, -1}};
+    const double least = 1e-5; // [m, rad]
     const launch_state *self = the->self;
     const launching_system *launching = &self->launcher.launching;
-    const double *x = y + launching->layout.x,
-                 line[SHOE_FREEDOMS] = {launching->surfaces.line_y, launching->surfaces.line_z};
-    double mirror[SHOE_FREEDOMS] = {0}, found[LD_MAX_STATES], off = 0;
-    for (int i = 0; i < PLACES; i++) {
-        mirror[i] = line[i] - x[X_Y + i];
-        off = fmax(off, fabs(mirror[i]));
-    }
-    if (!launching->surfaces.count || !is_upright(the, start) || off < apart)
+    const double *x = y + launching->layout.x;
+    double off[PLACES] = {x[X_Y] - launching->surfaces.line_y, x[X_Z] - launching->surfaces.line_z,
+                          x[X_PSI], x[X_THETA]};
+    double size = 0, from[SHOE_FREEDOMS] = {0};
+    for (int i = 0; i < PLACES; i++)
+        size = fmax(size, fabs(off[i]));
+    if (!launching->surfaces.count || !is_upright(the, start) || size < least)
         return;
-    problem other = *the;
-    carried_directions carried;
-    double depth = self->rocket->start_at - x[X_S];
-    double reached = find_beside(&other, start, depth, mirror, &carried, accepted, found);
-    if (!is_at_rest(&other, found, reached, accepted))
-        return;
-    for (int i = 0; i < PLACES; i++) {
-        summary->taken[i] = x[X_Y + i] - line[i];
-        summary->other[i] = found[launching->layout.x + X_Y + i] - line[i];
-        summary->rests_elsewhere |= fabs(summary->other[i] - summary->taken[i]) > apart;
+    for (int k = 0; k < 3 && !summary->rests_elsewhere; k++) {
+        mirror(self, off, sides[k][0], sides[k][1], from);
+        summary->rests_elsewhere =
+            rests_elsewhere(the, start, accepted, y, from, off, summary->other);
     }
+    memcpy(summary->taken, off, sizeof off);
 }
 
 // Says so where gravity, or the air with it, pulls the rocket along a direction in which nothing
@@ -830,6 +863,24 @@ static ld_status check_carried(const problem *the, const double *y, double accep
                    the->self->air ? "gravity and the air pull" : "gravity pulls", names[worst]);
 }
 
+// The rocket in its bore is let go from the axis. `best`: what the state in y has reached.
+static double try_letting_go(const problem *the, const double *start, double accepted, double best,
+                             double *y)
+{
+    problem tube = *the;
+    double found[LD_MAX_STATES];
+    tube.count = launching_freedoms(the->self);
+    guess_straight(the, start, found);
+    double reached = let_go(&tube, accepted, found);
+    if (the->count > tube.count && reached <= accepted)
+        reached = let_go(the, accepted, found);
+    if (!(reached <= accepted) || is_away(the, found))
+        return best;
+    problem fine = *the;
+    memcpy(y, found, sizeof found);
+    return newton_fine(&fine, found, 1e-3 * accepted, y);
+}
+
 // Equilibrium of tube and rocket, and of the base with them where that is among the unknowns, which
 // stands in `start` in its place. Returns the residual; the state is in y.
 static double find_rest(const problem *the, const double *start, double accepted, double *y)
@@ -844,7 +895,7 @@ static double find_rest(const problem *the, const double *start, double accepted
     problem fine = *the;
     for (fine.h = 0.1 * the->h; fine.h > 1e-13 && best > accepted; fine.h *= 0.1)
         best = fmin(best, try_pairs(&fine, start, 0, accepted, y));
-    return best;
+    return best > accepted ? try_letting_go(the, start, accepted, best, y) : best;
 }
 
 // Without a lock the breech carries a rocket that gravity presses on it by more than nothing: s is
@@ -854,6 +905,45 @@ static void stand_on_breech(launch_state *self, problem *the, launching_phase *p
     self->on_breech = true;
     phase->locked = false;
     the->count++;
+}
+
+// From where the lock holds the rocket in y onto the breech, which it presses in by `depth`.
+static double go_on_breech(launch_state *self, problem *the, launching_phase *phase, double depth,
+                           double accepted, double *y)
+{
+    double best = INFINITY;
+    stand_on_breech(self, the, phase);
+    y[self->launcher.launching.layout.x + X_S] -= depth;
+    for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
+        best = newton(the, y);
+    return best;
+}
+
+// On surfaces and the breech at once or, where that finds nothing, from where a lock would hold the
+// rocket: a first step may take it off the breech, on which no further one brings it back.
+static double find_on_surfaces_and_breech(launch_state *self, problem *the, launching_phase *phase,
+                                          const double *start, double depth,
+                                          carried_directions *carried, double accepted, double *y)
+{
+    problem held = *the;
+    carried_directions other;
+    double found[LD_MAX_STATES];
+    stand_on_breech(self, the, phase);
+    double reached = find_on_surfaces(the, start, depth, carried, accepted, y);
+    if (is_at_rest(the, y, reached, accepted))
+        return reached;
+    self->on_breech = false;
+    phase->locked = true;
+    double next = find_on_surfaces(&held, start, 0, &other, accepted, found);
+    bool rests = is_at_rest(&held, found, next, accepted);
+    next = go_on_breech(self, &held, phase, depth, accepted, found);
+    if (!rests || !is_at_rest(&held, found, next, accepted))
+        return reached;
+    *carried = other;
+    *the = held;
+    the->carried = carried;
+    memcpy(y, found, sizeof found);
+    return next;
 }
 
 // Finds the equilibrium as find_rest() does, with the lock closed, or on surfaces. Where there is
@@ -866,21 +956,14 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
     bool stands = !self->rocket->lock.present &&
                   pressed > 1e-9 * self->motor->full.m * model_gravity(self->model);
     double depth = stands ? depth_under(&self->rocket->contact, pressed) : 0;
+    bool surfaces = self->launcher.launching.surfaces.count > 0;
     self->on_breech = false;
-    if (self->launcher.launching.surfaces.count) {
-        if (stands)
-            stand_on_breech(self, the, phase);
-        return find_on_surfaces(the, start, depth, carried, accepted, y);
-    }
+    if (surfaces && stands)
+        return find_on_surfaces_and_breech(self, the, phase, start, depth, carried, accepted, y);
+    if (surfaces)
+        return find_on_surfaces(the, start, 0, carried, accepted, y);
     double best = find_rest(the, start, accepted, y);
-    if (!stands || !(best <= accepted))
-        return best;
-    stand_on_breech(self, the, phase);
-    y[self->launcher.launching.layout.x + X_S] -= depth;
-    best = INFINITY;
-    for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
-        best = newton(the, y);
-    return best;
+    return stands && best <= accepted ? go_on_breech(self, the, phase, depth, accepted, y) : best;
 }
 
 // A base with a motion of its own in equilibrium under a tube that is a dead load; one that is

@@ -6,6 +6,7 @@
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "support/check.h"
+#include "support/flight_text.h"
 #include "support/fresh_launch.h"
 #include "support/launching_run.h"
 #include "support/launching_state.h"
@@ -419,10 +420,51 @@ static void far_from_the_origin(void **state)
     reference_model_free(&model);
 }
 
+// Four adaptors of unequal clearance, 1.7 deg from upright: the two in the middle of the row of
+// clearances carry, one of them less than a newton. Forces of a rigid rocket in a rigid bore by
+// Nelder and Mead's method, from 40 starts.
+static void carried_by_little(void **state)
+{
+    (void)state;
+    ld_model model = read_text(
+        "{launchdyn: 1, base: {kind: fixed, elevation: 88.313749 deg}, tubes: {length: 4.3418 m,"
+        " sections: [{from: 0 m, bore_radius: 80 mm, mass_per_length: 24.7128 kg/m,"
+        "  axial_stiffness: 6.3672e8 N, bending_stiffness: 1.5918e6 N.m2,"
+        "  torsion_stiffness: 1.5918e6 N.m2, polar_inertia: 0.3044 kg.m}],"
+        " modes: {bending: 4, torsion: 2}, slot: none, supports: ["
+        "  {at: 0.2605 m, stiffness: 5.243e6 5.243e6 5.243e6 N/m,"
+        "   rotational_stiffness: 4.762e4 4.762e4 4.762e4 N.m/rad},"
+        "  {at: 2.0803 m, stiffness: 7.194e6 7.194e6 7.194e6 N/m,"
+        "   rotational_stiffness: 7.509e4 7.509e4 7.509e4 N.m/rad}]},"
+        "rocket: {start_at: 0.2171 m, mass: 19.3264 kg, center: 0.3913 0 0 m,"
+        " inertia: 0.0369 8.13 8.13 kg.m2, eccentricity: 0.5207 -0.6456 mm, adaptors: ["
+        "  {name: a, at: 0 m, clearance: 0.4876 mm}, {name: b, at: 0.2540 m, clearance: 0.4478 mm},"
+        "  {name: c, at: 0.3643 m, clearance: 0.2116 mm},"
+        "  {name: d, at: 0.8897 m, clearance: 1.4527 mm}],"
+        " contact: {stiffness: 4.6074e7 N/m}, lock: none,"
+        " motor: {thrust: [[0 s, 6 kN], [4 s, 0 N]]}}, firing: [{tube: 1, at: 0 s}],"
+        "run: {end: tip}}");
+    static const double expected[] = {0.706, 0, 6.027, 0};
+    for (int locks = 0; locks < 2; locks++) {
+        fresh_launch launch;
+        double y[LD_MAX_STATES];
+        model.rocket.lock.present = locks;
+        fresh_launch_make(&launch, &model);
+        ld_equilibrium_summary found = find_equilibrium(&launch.state, y);
+        for (int i = 0; i < 4; i++)
+            CHECK_NEAR("an adaptor [N]", found.contact_force[i], expected[i], 0.01);
+        CHECK_NEAR("lock or breech [N]", found.breech_force - found.lock_force,
+                   19.3264 * model.gravity * sin(model.base.elevation), 0.001);
+        fresh_launch_free(&launch);
+    }
+    model_clear(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_accelerates),
+        cmocka_unit_test(carried_by_little),
         cmocka_unit_test(upright),
         cmocka_unit_test(upright_and_eccentric),
         cmocka_unit_test(sag_of_the_beam),
