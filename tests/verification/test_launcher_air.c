@@ -462,8 +462,8 @@ static void a_table_ends_on_the_rail(void **state)
     const char *table = "rocket.aerodynamics.table=[[0, 0.4, 0.3, 6, 0.8 m, 5, -7, -360], "
                         "[0.05, 0.4, 0.3, 6, 0.8 m, 5, -7, -360]]";
     const char *const set[] = {table, "rocket.aerodynamics.beyond_table=hold"};
-    const char *sentence = "rocket.aerodynamics.table: ends at Mach 0.05, beyond which the rocket "
-                           "goes at t = 0.";
+    const char *sentence = "rocket.aerodynamics.table: ends at Mach 0.05; the rocket exceeds it "
+                           "at t = 0.";
     for (size_t holds = 0; holds < 2; holds++) {
         ld_model model;
         ld_simulation *simulation = NULL;
