@@ -3,11 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/matrices/symmetric_eigen.h"
 #include "model/model.h"
 #include "scenario/scenario.h"
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "support/check.h"
+#include "support/flight_text.h"
 #include "support/fresh_launch.h"
 #include "support/line_frequencies.h"
 #include "support/reference_model.h"
@@ -110,6 +112,109 @@ static void each_plane_has_the_frequencies_of_its_elements(void **state)
         ld_simulation_free(simulation);
         reference_model_free(&model);
     }
+}
+
+// ---- a rail with a rocket on it, by a stiffness matrix
+
+enum { ELEMENTS = 60, LOADED = 2 * (ELEMENTS + 1) + 2 };
+typedef struct loaded_line {
+    double M[LOADED * LOADED], K[LOADED * LOADED];
+} loaded_line;
+
+// Adds k v v^T, v given by its places and values.
+static void add_spring(double *K, double k, int count, const int *at, const double *v)
+{
+    for (int i = 0; i < count; i++)
+        for (int j = 0; j < count; j++)
+            K[at[i] * LOADED + at[j]] += k * v[i] * v[j];
+}
+
+// Hermite elements of a uniform rail; a rocket as a rigid body, displacement and slope at O1, held
+// on the rail by springs at its shoes. Supports and shoes stand at nodes.
+static void assemble_loaded(const ld_model *model, int plane, loaded_line *line)
+{
+    const ld_tubes *tubes = &model->tubes;
+    const ld_rocket *rocket = &model->rocket;
+    const ld_section *section = &tubes->section[0];
+    double h = tubes->length / ELEMENTS, m = section->mass_per_length * h / 420;
+    double EI = (plane == PLANE_Y ? section->bending_stiffness_z : section->bending_stiffness_y) /
+                (h * h * h);
+    const double mass[4][4] = {{156, 22 * h, 54, -13 * h},
+                               {22 * h, 4 * h * h, 13 * h, -3 * h * h},
+                               {54, 13 * h, 156, -22 * h},
+                               {-13 * h, -3 * h * h, -22 * h, 4 * h * h}};
+    const double stiffness[4][4] = {{12, 6 * h, -12, 6 * h},
+                                    {6 * h, 4 * h * h, -6 * h, 2 * h * h},
+                                    {-12, -6 * h, 12, -6 * h},
+                                    {6 * h, 2 * h * h, -6 * h, 4 * h * h}};
+    memset(line, 0, sizeof *line);
+    for (int e = 0; e < ELEMENTS; e++)
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++) {
+                line->M[(2 * e + i) * LOADED + 2 * e + j] += m * mass[i][j];
+                line->K[(2 * e + i) * LOADED + 2 * e + j] += EI * stiffness[i][j];
+            }
+    for (int k = 0; k < tubes->support_count; k++) {
+        int node = (int)lround(tubes->support[k].at / h);
+        add_spring(line->K, tubes->support[k].stiffness[1 + plane], 1, (int[]){2 * node},
+                   (double[]){1});
+        add_spring(line->K, tubes->support[k].rotational_stiffness[2 - plane], 1,
+                   (int[]){2 * node + 1}, (double[]){1});
+    }
+    int at = LOADED - 2;
+    double c = rocket->full.center[0];
+    line->M[at * LOADED + at] = rocket->full.mass;
+    line->M[at * LOADED + at + 1] = line->M[(at + 1) * LOADED + at] = rocket->full.mass * c;
+    line->M[(at + 1) * (LOADED + 1)] = rocket->full.inertia[2] + rocket->full.mass * c * c;
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        double x = rocket->adaptor[i].at;
+        int node = (int)lround((rocket->start_at + x) / h);
+        add_spring(line->K, rocket->contact.stiffness, 3, (int[]){2 * node, at, at + 1},
+                   (double[]){1, -1, -x});
+    }
+}
+
+// Lowest frequencies of the rail with its locked rocket in planes that differ by 25 in stiffness
+// and supports, default modes, no gravity.
+static void a_loaded_rail_has_the_frequencies_of_its_elements(void **state)
+{
+    (void)state;
+    static loaded_line line;
+    static double vectors[LOADED * LOADED];
+    ld_mode modes[2 * LD_MAX_MODES];
+    ld_pole poles[4 * LD_MAX_MODES];
+    ld_simulation *simulation = NULL;
+    ld_error error;
+    int count, pole_count;
+    double value[LOADED];
+    ld_model model = read_text(
+        "{launchdyn: 1, environment: {gravity: 0 m/s2}, base: {kind: fixed, elevation: 0 deg},"
+        "tubes: {length: 6 m, sections: [{from: 0 m, bore_radius: 80 mm, mass_per_length: 12 kg/m,"
+        "  axial_stiffness: 2.5e8 N, bending_stiffness_y: 2.5e6 N.m2, bending_stiffness_z: 1e5 "
+        "N.m2,"
+        "  torsion_stiffness: 3e5 N.m2, polar_inertia: 0.05 kg.m}], slot: none, supports: ["
+        "  {at: 0.3 m, stiffness: 2e7 2e7 8e5 N/m,"
+        "   rotational_stiffness: 1e5 4e3 1e5 N.m/rad},"
+        "  {at: 2.7 m, stiffness: 2e7 2e7 8e5 N/m,"
+        "   rotational_stiffness: 1e5 4e3 1e5 N.m/rad}]},"
+        "rocket: {start_at: 0.4 m, mass: 30 kg, center: 0.9 0 0 m, inertia: 0.2 12 12 kg.m2,"
+        " adaptors: [{name: rear, at: 0 m}, {name: front, at: 1.3 m}],"
+        " contact: {law: bilateral, stiffness: 3e7 N/m}, lock: {release_force: 1 kN},"
+        " motor: {thrust: [[0 s, 6 kN], [2 s, 0 N]]}}, firing: [{tube: 1, at: 0 s}],"
+        "run: {end: tip}}");
+    if (ld_simulation_create(&model, &simulation, &error) ||
+        ld_simulation_system_modes(simulation, modes, 2 * LD_MAX_MODES, &count, poles,
+                                   4 * LD_MAX_MODES, &pole_count, &error))
+        fail_msg("%s", error.text);
+    for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
+        assemble_loaded(&model, plane, &line);
+        assert_int_equal(symmetric_eigen(LOADED, line.M, line.K, 1, value, vectors), 0);
+        double exact = 1 / sqrt(value[0]) / TWO_PI;
+        printf("  plane of %c: %.6f Hz\n", "yz"[plane], exact);
+        CHECK_BELOW("lowest frequency, relative", nearest(modes, count, exact), 1e-5);
+    }
+    ld_simulation_free(simulation);
+    model_clear(&model);
 }
 
 // Eigenvalues come in the right number and are stable: two of the rocket's twelve states a degree
@@ -243,6 +348,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tube_has_the_frequencies_of_its_elements),
         cmocka_unit_test(each_plane_has_the_frequencies_of_its_elements),
+        cmocka_unit_test(a_loaded_rail_has_the_frequencies_of_its_elements),
         cmocka_unit_test(the_held_rocket_is_stable),
         cmocka_unit_test(the_lowest_mode_is_seen_in_time),
         cmocka_unit_test(a_light_touch_is_a_touch),
