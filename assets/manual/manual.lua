@@ -137,6 +137,21 @@ local function quoted(text)
     return '"' .. text:gsub('[\\"]', "\\%0"):gsub("%c", " "):gsub("</", "<\\/") .. '"'
 end
 
+-- Of the glossary an entry for each term, which leads to the page that explains it.
+local function collect_terms(list)
+    for _, item in ipairs(list.content) do
+        local term, target
+        pandoc.walk_block(pandoc.Div(item), {
+            Strong = function(strong) term = term or pandoc.utils.stringify(strong) end,
+            Link = function(found) target = found.target:gsub("%.md", ".html") end,
+        })
+        if term and target then
+            table.insert(sections, "[" .. quoted(target) .. ',"Glossary",' .. quoted(term) .. "," ..
+                quoted(pandoc.utils.stringify(item)) .. "]")
+        end
+    end
+end
+
 -- One entry for each section: [page, title of the chapter, title, text].
 local function collect(document)
     if index then
@@ -148,7 +163,9 @@ local function collect(document)
             text = {}
         end
         for _, block in ipairs(document.blocks) do
-            if block.t == "Header" then
+            if name == "glossary" and block.t == "BulletList" then
+                collect_terms(block)
+            elseif block.t == "Header" then
                 if block.level > 1 then
                     finish()
                     title, anchor = pandoc.utils.stringify(block), "#" .. block.identifier

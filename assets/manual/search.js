@@ -43,7 +43,7 @@
             list.textContent = "Nothing found.";
     }
 
-    input.addEventListener("input", () => {
+    function search() {
         if (window.manualIndex)
             return show();
         if (reading)
@@ -53,7 +53,13 @@
         script.src = "search-index.js";
         script.onload = show;
         document.head.append(script);
-    });
+    }
+
+    input.addEventListener("input", search);
+    // A link to a search: page.html?q=words.
+    input.value = new URLSearchParams(location.search).get("q") ?? "";
+    if (input.value)
+        search();
     // On wide screens the list of chapters stands open.
     if (window.matchMedia("(min-width: 72rem)").matches)
         document.querySelector("nav details").open = true;

@@ -210,10 +210,10 @@ static bool has_own_list(const field_block *block, const field_row *f)
 static void write_row(FILE *stream, const field_block *block, const field_row *f)
 {
     const char *bold = f->required ? "**" : "";
-    fprintf(stream, "- %s`%s`%s ", bold, f->name, bold);
+    fprintf(stream, "- %s`%s`%s [", bold, f->name, bold);
     write_kind(stream, f);
     write_default(stream, f);
-    fprintf(stream, ": ");
+    fprintf(stream, "]: ");
     write_text(stream, f->doc);
     if (!has_own_list(block, f))
         write_forms(stream, block, f, (const char *const[]){"; only", "; not"}, "");
