@@ -177,7 +177,7 @@ static void draw_loop(mechanism *m, uint64_t *seed)
 {
     specimen *s = &m->tree;
     ld_mstmm_loop *l = &m->loop[m->count];
-    const double none[6] = {0};
+    const double none[SPEEDS] = {0};
     memset(l, 0, sizeof *l);
     snprintf(m->name[m->count], sizeof m->name[0], "l%d", m->count);
     l->name = m->name[m->count];
@@ -252,20 +252,19 @@ static real close_speeds(mechanism *m)
     return condition;
 }
 
-// A mechanism of independent constraints.
-static void draw_mechanism(mechanism *m, uint64_t *seed)
+// A mechanism of so many loops, of independent constraints.
+static void draw_mechanism(mechanism *m, int wanted, uint64_t *seed)
 {
     real condition = 0;
     do {
         memset(m, 0, sizeof *m);
         tree_draw(&m->tree, KINDS, seed);
-        int wanted = 1 + tree_pick(LOOPS, seed);
         for (int k = 0; k < wanted && m->rows + 6 < m->tree.u_count; k++)
             draw_loop(m, seed);
-        if (m->count > 0)
+        if (m->count == wanted)
             condition = close_speeds(m);
         // without a solution the condition is no number, or 0
-    } while (m->count == 0 || !(condition >= 1 && condition < 1e6L && isfinite(m->tree.u[0])));
+    } while (m->count < wanted || !(condition >= 1 && condition < 1e6L && isfinite(m->tree.u[0])));
 }
 
 static ld_mstmm *build(const mechanism *m)
@@ -363,7 +362,7 @@ static void test_accelerations_are_those_of_multipliers(void **state)
         double u_dot[SPEEDS], off = 0, size = 0;
         ld_error error = {0};
         ld_mstmm_assembly found;
-        draw_mechanism(&m, &seed);
+        draw_mechanism(&m, 1 + i % LOOPS, &seed);
         loops[m.count]++;
         for (int k = 0; k < m.count; k++)
             kinds[m.loop[k].joint]++;
@@ -405,7 +404,7 @@ static void test_closing(void **state)
     for (int i = 0; i < MECHANISMS / 4; i++) {
         jet row[ROWS];
         ld_error error = {0};
-        draw_mechanism(&m, &seed);
+        draw_mechanism(&m, 1 + i % LOOPS, &seed);
         ld_mstmm *system = build(&m);
         for (int k = 0; k < m.tree.q_count; k++)
             m.tree.q[k] += 0.2 * draw(&seed);
