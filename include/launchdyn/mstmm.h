@@ -212,9 +212,10 @@ void ld_mstmm_reference(const ld_mstmm *system, double *q);
 /// Forward dynamics by the reduced sweep (Riccati form of the transfer equations, formulation.md
 /// section 2): u_dot from q, u, hinge forces `tau` (NULL: none) and applied wrenches (NULL: none;
 /// else 6 for each element: force, then moment about the body's origin, inertial axes). Springs and
-/// dampers of the hinges are added. Loops are closed by forces at acceleration level; q and u are
-/// to close them already. Fails where a hinge's state is singular, with its name, or where a
-/// singular pose of a loop demands what no force gives.
+/// dampers of the hinges are added. q and u NULL: those of the latest ld_mstmm_places. Loops are
+/// closed by forces at acceleration level; q and u are to close them already. Fails where a hinge's
+/// state is singular, with its name, or where a singular pose of a loop demands what no force
+/// gives.
 ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
                                  const double *tau, const double *wrench, double *u_dot,
                                  ld_error *error);
@@ -272,6 +273,11 @@ typedef struct ld_mstmm_point {
 /// The point `at` of an element: body axes, or station, y, z on a beam.
 ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *u, int element,
                                const double at[3]);
+
+/// The same of the frames' origins of all elements, in their order (a beam's input end). An
+/// evaluation of ld_mstmm_accelerations that follows may have NULL for q and u and then saves their
+/// motion.
+void ld_mstmm_places(ld_mstmm *system, const double *q, const double *u, ld_mstmm_point *places);
 
 /// Acceleration [m/s2] of the point `at` of an element and angular acceleration [rad/s2] of the
 /// body (or section) while `u_dot` holds, inertial axes.

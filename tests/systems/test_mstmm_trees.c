@@ -191,12 +191,44 @@ static void test_points_and_reactions(void **state)
     CHECK_BELOW("forces in the hinges, relative", worst_force, 1e-13);
 }
 
+// Places of all at once are those of one at a time; an evaluation after them has the same bits.
+static void test_places(void **state)
+{
+    (void)state;
+    static specimen s;
+    uint64_t seed = 8;
+    for (int tree = 0; tree < 20; tree++) {
+        ld_mstmm *system;
+        ld_mstmm_point all[BODIES];
+        const double origin[3] = {0, 0, 0};
+        double u_dot[SPEEDS] = {0}, again[SPEEDS] = {0};
+        tree_draw(&s, KINDS, &seed);
+        assert_int_equal(ld_mstmm_create(s.element, s.count, s.gravity, &system, NULL), LD_OK);
+        ld_mstmm_accelerations(system, s.q, s.u, s.tau, s.wrench, u_dot, NULL);
+        ld_mstmm_places(system, s.q, s.u, all);
+        for (int pass = 0; pass < 3; pass++) {
+            // at once, a second time, after something else
+            memset(again, 0, sizeof again);
+            if (pass == 2)
+                ld_mstmm_locate(system, s.q, s.tau, 0, origin);
+            ld_mstmm_accelerations(system, NULL, NULL, s.tau, s.wrench, again, NULL);
+            assert_memory_equal(u_dot, again, sizeof u_dot);
+        }
+        for (int i = 0; i < s.count; i++) {
+            ld_mstmm_point one = ld_mstmm_locate(system, s.q, s.u, i, origin);
+            assert_memory_equal(&one, &all[i], sizeof one);
+        }
+        ld_mstmm_free(system);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_reduced_sweep_is_the_dense_solve),
         cmocka_unit_test(test_prescribed_hinges),
         cmocka_unit_test(test_points_and_reactions),
+        cmocka_unit_test(test_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,6 +51,7 @@ static bool allocate_workspace(ld_mstmm *s)
     s->wrench = array(n, sizeof *s->wrench, &missing);
     s->place = array(n, sizeof *s->place, &missing);
     s->pass = array(n, sizeof *s->pass, &missing);
+    s->known = array((size_t)s->q_count + u, sizeof *s->known, &missing);
     s->prescribed = array((size_t)s->element_count, sizeof *s->prescribed, &missing);
     if (!missing)
         v4d_store_m3(s->motion[0].A, m3_identity());
@@ -74,7 +75,8 @@ void ld_mstmm_free(ld_mstmm *s)
     for (int i = 0; s->beams && i < s->beam_count; i++)
         beam_free(&s->beams[i], last);
     FREE_ALL(s->beam_of, s->beams, s->angle, s->sine, s->cosine, s->motion, s->axis, s->branch,
-             s->branch_x, s->passing, s->own, s->tau, s->wrench, s->place, s->pass, s->prescribed);
+             s->branch_x, s->passing, s->own, s->tau, s->wrench, s->place, s->pass, s->prescribed,
+             s->known);
     loops_free_workspace(s);
     if (last)
         loops_free(s);
@@ -122,6 +124,8 @@ ld_status ld_mstmm_copy(const ld_mstmm *system, ld_mstmm **out, ld_error *error)
     s->wrench = s->place = NULL;
     s->pass = NULL;
     s->prescribed = NULL;
+    s->known = NULL;
+    s->placed = false;
     s->loop_work = NULL;
     s->dense = (dense_rows){0};
     s->loop_numbers = s->applied = s->zero = s->response = s->trial = NULL;

@@ -209,6 +209,8 @@ struct ld_mstmm {
     double *loop_numbers; // their Y, Z, S, X
     dense_rows dense;
     double *applied;         // wrenches with those of loops' springs
+    double *known;           // q and u of the latest ld_mstmm_places
+    bool placed;             // the motion is still theirs
     double *zero, *response; // [u_count]; the least motion that closes loops
     double *trial;           // coordinates tried
     bool assembled;
@@ -239,6 +241,7 @@ extern const sweep sweep_default, sweep_avx;
 // Motion of all nodes.
 LD_INLINE void multibody_move(ld_mstmm *system, const double *q, const double *u)
 {
+    system->placed = false;
     system->sweep->move(system, q, u);
 }
 

@@ -6,8 +6,15 @@ ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double
                                  const double *tau, const double *wrench, double *u_dot,
                                  ld_error *error)
 {
+    if (!q) {
+        q = system->known;
+        u = q + system->q_count;
+    }
     tau = multibody_hinge_forces(system, q, u, tau);
-    multibody_move(system, q, u);
+    if (q != system->known || !system->placed)
+        multibody_move(system, q, u);
+    // the sweep uses it up
+    system->placed = false;
     if (system->loop_count > 0) {
         loops_place(system, u);
         wrench = loops_load(system, wrench);

@@ -276,6 +276,24 @@ ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *
     return point;
 }
 
+void ld_mstmm_places(ld_mstmm *system, const double *q, const double *u, ld_mstmm_point *places)
+{
+    memcpy(system->known, q, (size_t)system->q_count * sizeof *q);
+    memcpy(system->known + system->q_count, u, (size_t)system->u_count * sizeof *u);
+    multibody_move(system, q, u);
+    multibody_place(system, u);
+    for (int e = 0; e < system->element_count; e++) {
+        const int i = system->element_node[e];
+        const quat attitude = q_from_matrix(node_body_axes(system, i));
+        ld_mstmm_point *p = &places[e];
+        v3_store(p->position, system->place[i].linear);
+        v3_store(p->velocity, system->place[i].angular);
+        v3_store(p->rate, v4d_v3(system->motion[i].w));
+        memcpy(p->attitude, &attitude, sizeof attitude);
+    }
+    system->placed = true;
+}
+
 void ld_mstmm_point_acceleration(ld_mstmm *system, const double *q, const double *u,
                                  const double *u_dot, int element, const double at[3],
                                  double linear[3], double angular[3])
