@@ -294,6 +294,33 @@ static void test_vibration(void **state)
     ld_mstmm_free(system);
 }
 
+// A spring and a damper in the pin that closes the loop: stiffness and damping of one pendulum.
+static void test_damped_vibration(void **state)
+{
+    (void)state;
+    const ld_mstmm_element e[3] = {rod("left", NULL, 0, 0, 1), rod("coupler", "left", 1, 0, 1),
+                                   rod("right", NULL, 1, 0, 1)};
+    ld_mstmm_loop l = pin("coupler", 1, "right", 1, 0);
+    const double k = 7, d = 0.8, inertia = 5.0 / 3;
+    double q[3] = {-M_PI / 2, M_PI / 2, -M_PI / 2};
+    l.stiffness[0] = k;
+    l.damping[0] = d;
+    l.rest[0] = -M_PI / 2;
+    ld_mstmm *system = build(e, 3, &l, 1, 9.81);
+    ld_mstmm_mode mode[3];
+    int count = 0;
+    ld_error error = {0};
+    if (ld_mstmm_assemble(system, q, NULL, NULL, NULL, &error) ||
+        ld_mstmm_vibration(system, q, NULL, mode, NULL, &count, &error))
+        fail_msg("%s", error.text);
+    double omega = sqrt((k + 2 * 9.81) / inertia);
+    CHECK_BELOW("spring in the loop's pin: frequency, relative",
+                mode[0].frequency * 2 * M_PI / omega - 1, 1e-10);
+    CHECK_BELOW("damper in the loop's pin: damping ratio",
+                mode[0].damping - d / (2 * inertia * omega), 1e-12);
+    ld_mstmm_free(system);
+}
+
 // A beam between pins, the far one on a light slider: its first frequency, and a copy's bits.
 static void test_beam_in_a_loop(void **state)
 {
@@ -412,6 +439,7 @@ int main(void)
         cmocka_unit_test(test_prescribed_motion),
         cmocka_unit_test(test_driven_crank),
         cmocka_unit_test(test_vibration),
+        cmocka_unit_test(test_damped_vibration),
         cmocka_unit_test(test_beam_in_a_loop),
         cmocka_unit_test(test_floating_ring_conserves),
     };

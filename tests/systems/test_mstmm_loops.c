@@ -477,7 +477,10 @@ static void test_a_loop_is_a_hinge(void **state)
             double q[14], u[12], u_dot[12], x[14] = {0}, v[12] = {0}, v_dot[12];
             tree_fill(q, 7 + tree_coordinates[kind], 1, &seed);
             tree_fill(u, 6 + tree_speeds[kind], 1, &seed);
-            assert_int_equal(ld_mstmm_accelerations(tree, q, u, NULL, NULL, u_dot, NULL), LD_OK);
+            // driven along the joint's speeds
+            double tau[12] = {0}, wrench[12] = {0};
+            tree_fill(tau + 6, tree_speeds[kind], 5, &seed);
+            assert_int_equal(ld_mstmm_accelerations(tree, q, u, tau, NULL, u_dot, NULL), LD_OK);
 
             // as a loop: both bodies free, in the same places
             ld_mstmm_loop l = {.name = "joint", .joint = (ld_hinge)kind};
@@ -508,7 +511,9 @@ static void test_a_loop_is_a_hinge(void **state)
             ld_error error = {0};
             if (ld_mstmm_assemble(closed, x, NULL, NULL, NULL, &error))
                 fail_msg("%s", error.text);
-            assert_int_equal(ld_mstmm_accelerations(closed, x, v, NULL, NULL, v_dot, NULL), LD_OK);
+            assert_int_equal(ld_mstmm_loop_wrench(closed, x, 0, tau + 6, wrench, NULL), LD_OK);
+            assert_int_equal(ld_mstmm_accelerations(closed, x, v, NULL, wrench, v_dot, NULL),
+                             LD_OK);
             double size = 0, off = 0;
             for (int i = 0; i < 2; i++) {
                 double at[3], a[2][3], alpha[2][3];
