@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "model/fields/field.h"
 #include "model/warnings/plausible.h"
 #include "support/markdown.h"
 

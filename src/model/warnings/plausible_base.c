@@ -5,15 +5,9 @@
 #include "math/functions.h"
 #include "model/model.h"
 #include "model/motion_rows.h"
-#include "model/warnings/plausible.h"
+#include "model/warnings/plausible_rule.h"
 
 #define PI 3.14159265358979323846
-#define FIND(name) static plausible_pair name(const plausible_entry *at)
-
-FIND(base_speed)
-{
-    return plausible_alone(plausible_norm(at->model->base.velocity));
-}
 
 // Largest change of phase from row to row of the motion in columns j and j + 1, where in both rows
 // it is more than a twentieth of its largest.
@@ -39,7 +33,7 @@ static double greatest_rate(const ld_sines *sines, int power)
     return sum;
 }
 
-FIND(base_acceleration)
+static plausible_pair base_acceleration(const plausible_entry *at)
 {
     const ld_base *base = &at->model->base;
     const double a[3] = {greatest_rate(&base->surge, 2), greatest_rate(&base->heave, 2),
@@ -47,7 +41,7 @@ FIND(base_acceleration)
     return plausible_alone(plausible_norm(a));
 }
 
-FIND(base_rate)
+static plausible_pair base_rate(const plausible_entry *at)
 {
     const ld_base *base = &at->model->base;
     const double w[3] = {greatest_rate(&base->yaw, 1), greatest_rate(&base->pitch, 1),
@@ -82,7 +76,7 @@ static int by_size(const void *a, const void *b)
 }
 
 // The longest time from row to row of the run beside the median of them.
-FIND(motion_gap)
+static plausible_pair motion_gap(const plausible_entry *at)
 {
     const ld_table *table = &at->model->base.motion;
     size_t first, count;
@@ -139,7 +133,7 @@ static plausible_pair coarseness(const motion_rows *rows, size_t k, double *t, d
 }
 
 // The coordinate for which that is worst, of those that move.
-FIND(motion_coarse)
+static plausible_pair motion_coarse(const plausible_entry *at)
 {
     static const double AT_REST = 1e-4; // [m], [rad]
     motion_rows rows;
@@ -162,17 +156,9 @@ FIND(motion_coarse)
     return worst;
 }
 
-// Height over length of waves of the peak's period, 2 pi Hs/(g Tp^2).
-FIND(sea_steepness)
-{
-    const ld_sea *sea = &at->model->base.sea;
-    double length = at->model->gravity * sea->period * sea->period / (2 * PI);
-    return plausible_alone(sea->present ? sea->height / length : NAN);
-}
-
 // Largest change of a motion's phase from row to row where it is more than a twentieth of its
 // largest, in all responses.
-FIND(sea_phase_step)
+static plausible_pair sea_phase_step(const plausible_entry *at)
 {
     const ld_sea *sea = &at->model->base.sea;
     double most = 0;
@@ -184,10 +170,8 @@ FIND(sea_phase_step)
     return plausible_alone(sea->present ? most : NAN);
 }
 
-#define NO_LOW .low = -INFINITY
-
 const plausible_rule plausible_of_base[] = {
-    {"base.velocity", "the speed", .unit = "m/s", NO_LOW, .high = 1000, .find = base_speed,
+    {"base.velocity", "the speed", .unit = "m/s", NO_LOW, .high = 1000, .form = PLAUSIBLE_NORM,
      .why = "it is steady while the launch lasts"},
     {"base.motion", "the acceleration by its sines", .unit = "m/s2", NO_LOW, .high = 100,
      .find = base_acceleration, .why = "gravity is 9.8 m/s2"},
@@ -200,7 +184,8 @@ const plausible_rule plausible_of_base[] = {
      .other = "the range of that coordinate without its mean rate", NO_LOW, .high = 0.01,
      .find = motion_coarse, .why = "rows so coarse or noisy give no acceleration"},
     {"base.sea.height", "the steepness of the waves", .unit = "", NO_LOW, .high = 0.07,
-     .find = sea_steepness, .of = "base.sea.period", .why = "steeper waves break"},
+     .form = PLAUSIBLE_RATIO, .b = "the length of waves", .of = "base.sea.period",
+     .why = "steeper waves break"},
     {"base.sea.responses", "the phase from row to row", .unit = "rad", NO_LOW,
      .high = 100 * PI / 180, .find = sea_phase_step,
      .why = "a line between rows so far apart goes past the response"},

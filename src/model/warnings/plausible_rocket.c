@@ -3,150 +3,22 @@
 #include "model/model.h"
 #include "model/parts.h"
 #include "model/warnings/estimates.h"
-#include "model/warnings/plausible.h"
+#include "model/warnings/plausible_rule.h"
 
 #define PI 3.14159265358979323846
-#define FIND(name) static plausible_pair name(const plausible_entry *at)
 
-// ---- mass
-
-static double gyration(double inertia, const ld_mass_data *data)
-{
-    return sqrt(inertia / data->mass);
-}
-
-FIND(center)
-{
-    return plausible_compare(at->model->rocket.full.center[0], estimate_front(at->model));
-}
-
-FIND(empty_center)
-{
-    return plausible_compare(at->model->rocket.empty.center[0], estimate_front(at->model));
-}
-
-FIND(off_axis)
+static plausible_pair off_axis(const plausible_entry *at)
 {
     const ld_rocket *rocket = &at->model->rocket;
     double y = rocket->full.center[1] + rocket->eccentricity[0];
     double z = rocket->full.center[2] + rocket->eccentricity[1];
-    return plausible_compare(hypot(y, z), estimate_bore(at->model));
-}
-
-FIND(imbalance)
-{
-    const double *tilt = at->model->rocket.dynamic_imbalance;
-    return plausible_alone(hypot(tilt[0], tilt[1]));
-}
-
-FIND(roll_gyration)
-{
-    const ld_mass_data *full = &at->model->rocket.full;
-    return plausible_compare(gyration(full->inertia[0], full), estimate_bore(at->model));
-}
-
-FIND(empty_roll_gyration)
-{
-    const ld_mass_data *empty = &at->model->rocket.empty;
-    return plausible_compare(gyration(empty->inertia[0], empty), estimate_bore(at->model));
-}
-
-// Place of the foremost adaptor [m] where it tells how long the rocket is: in a bore. Buttons on a
-// rail may stand close.
-static double length_told(const ld_model *model)
-{
-    return model_has_surfaces(model) ? NAN : estimate_front(model);
-}
-
-FIND(pitch_gyration)
-{
-    const ld_mass_data *full = &at->model->rocket.full;
-    return plausible_compare(gyration(full->inertia[2], full), length_told(at->model));
-}
-
-FIND(empty_pitch_gyration)
-{
-    const ld_mass_data *empty = &at->model->rocket.empty;
-    return plausible_compare(gyration(empty->inertia[2], empty), length_told(at->model));
-}
-
-FIND(propellant)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    double lost = rocket->full.mass - rocket->empty.mass;
-    return plausible_compare(rocket->propellant, lost > 0 ? lost : NAN);
-}
-
-// ---- in the tube
-
-FIND(guidance)
-{
-    return plausible_compare(estimate_front(at->model), estimate_bore(at->model));
-}
-
-FIND(clearance)
-{
-    return plausible_compare(at->model->rocket.adaptor[at->i].clearance, estimate_bore(at->model));
-}
-
-FIND(contact_frequency)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    return plausible_alone(sqrt(rocket->contact.stiffness / rocket->full.mass) / (2 * PI));
-}
-
-// Decay time [s] of the rocket's motion by the damping of one contact.
-FIND(contact_time)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    double damping = rocket->contact.damping;
-    return plausible_compare(damping > 0 ? rocket->full.mass / damping : NAN,
-                             at->model->run.max_step);
-}
-
-FIND(release_force)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    return plausible_compare(model_has_pressure(at->model) ? NAN : rocket->lock.release_force,
-                             estimate_peak_thrust(&rocket->motor));
-}
-
-FIND(hold_down)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    bool by_motor = rocket->lock.hold_down > 0 && !model_has_pressure(at->model);
-    return plausible_compare(by_motor ? rocket->lock.hold_down : NAN,
-                             estimate_burn_time(&rocket->motor));
-}
-
-FIND(release_by_pressure)
-{
-    const ld_model *model = at->model;
-    return plausible_compare(model_has_pressure(model) ? model->rocket.lock.release_force : NAN,
-                             estimate_peak_drive(model));
-}
-
-// In a tube that points down the lock carries the weight.
-FIND(release_by_weight)
-{
-    double forwards = -estimate_weight_along(at->model);
-    return plausible_compare(at->model->rocket.lock.release_force, forwards > 0 ? forwards : NAN);
-}
-
-FIND(lock_along)
-{
-    return plausible_compare(at->model->rocket.lock.x, estimate_front(at->model));
-}
-
-FIND(lock_across)
-{
-    return plausible_compare(at->model->rocket.lock.radius, estimate_bore(at->model));
+    return plausible_compare(hypot(y, z), estimate_bore(at));
 }
 
 // ---- motor
 
 // The shortest time between two corners of the thrust, and the row of the second; a jump has none.
-FIND(thrust_corner)
+static plausible_pair thrust_corner(const plausible_entry *at)
 {
     const ld_motor *motor = &at->model->rocket.motor;
     plausible_pair pair = plausible_nothing();
@@ -160,18 +32,18 @@ FIND(thrust_corner)
     return pair;
 }
 
-FIND(thrust_at_end)
+static plausible_pair thrust_at_end(const plausible_entry *at)
 {
     const ld_motor *motor = &at->model->rocket.motor;
     size_t rows = motor->thrust.rows;
     double last = motor->thrust.data[2 * rows - 1] * motor->thrust_scale;
-    plausible_pair pair = plausible_compare(last, estimate_peak_thrust(motor));
+    plausible_pair pair = plausible_compare(last, estimate_peak_thrust(at));
     pair.row = (int)rows;
     return pair;
 }
 
 // The first row below 0.
-FIND(negative_thrust)
+static plausible_pair negative_thrust(const plausible_entry *at)
 {
     const ld_table *thrust = &at->model->rocket.motor.thrust;
     for (size_t k = 0; k < thrust->rows; k++)
@@ -183,105 +55,20 @@ FIND(negative_thrust)
     return plausible_nothing();
 }
 
-FIND(thrust_by_weight)
-{
-    const ld_model *model = at->model;
-    double weight = model_has_launcher(model) ? estimate_weight_along(model) : NAN;
-    return plausible_compare(estimate_peak_drive(model), weight > 0 ? weight : NAN);
-}
-
-FIND(acceleration)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    return plausible_alone(estimate_peak_thrust(&rocket->motor) / rocket->full.mass);
-}
-
 // At which the empty rocket falls below it near sea level.
-FIND(speed_of_descent)
+static plausible_pair speed_of_descent(const plausible_entry *at)
 {
     const ld_rocket *rocket = &at->model->rocket;
     double area = rocket->parachute[at->i].drag_area;
     return plausible_alone(sqrt(2 * rocket->empty.mass * 9.81 / (1.2 * area)));
 }
 
-FIND(opening_time)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    const ld_parachute *one = &rocket->parachute[at->i];
-    bool burns = one->trigger == LD_TRIGGER_TIME && !rocket->motor.absent;
-    return plausible_compare(burns ? one->time + one->lag : NAN,
-                             estimate_burn_time(&rocket->motor));
-}
-
-FIND(exhaust_speed)
-{
-    const ld_rocket *rocket = &at->model->rocket;
-    double speed = estimate_impulse(&rocket->motor) / rocket->propellant;
-    return plausible_alone(rocket->propellant > 0 ? speed : NAN);
-}
-
-FIND(nozzle_along)
-{
-    return plausible_compare(at->model->rocket.motor.at[0], length_told(at->model));
-}
-
-FIND(nozzle_across)
-{
-    const double *r = at->model->rocket.motor.at;
-    return plausible_compare(hypot(r[1], r[2]), estimate_bore(at->model));
-}
-
 // ---- aerodynamics
 
-FIND(diameter)
-{
-    return plausible_compare(at->model->rocket.aerodynamics.reference_diameter,
-                             2 * estimate_bore(at->model));
-}
-
-FIND(emerged_diameter)
-{
-    return plausible_compare(at->model->rocket.aerodynamics.emerged.diameter,
-                             2 * estimate_bore(at->model));
-}
-
-FIND(nose)
-{
-    return plausible_compare(at->model->rocket.aerodynamics.emerged.nose,
-                             estimate_front(at->model));
-}
-
-FIND(area)
-{
-    double bore = estimate_bore(at->model), area = at->model->rocket.aerodynamics.area;
-    return plausible_compare(area > 0 ? area : NAN, PI * bore * bore);
-}
-
-// Greatest value of a column of the table.
-static double greatest(const ld_table *table, size_t column)
-{
-    double most = -INFINITY;
-    for (size_t i = 0; i < table->rows; i++)
-        most = fmax(most, table->data[i * table->columns + column]);
-    return most;
-}
-
-enum { CA_POWER_OFF = 1, CN_ALPHA = 3, X_CP = 4 };
-
-FIND(axial_coefficient)
-{
-    const ld_aerodynamics *air = &at->model->rocket.aerodynamics;
-    return plausible_alone(greatest(&air->table, CA_POWER_OFF) * air->ca_scale);
-}
-
-FIND(normal_coefficient)
-{
-    double most = greatest(&at->model->rocket.aerodynamics.table, CN_ALPHA);
-    return plausible_alone(most > 0 ? most : NAN);
-}
+enum { CA_POWER_OFF = 1, CN_ALPHA = 3, X_CP = 4 }; // columns
 
 // Static margin in calibres: the mass centre before the centre of pressure at Mach 0.
-FIND(static_margin)
+static plausible_pair static_margin(const plausible_entry *at)
 {
     const ld_rocket *rocket = &at->model->rocket;
     const ld_aerodynamics *air = &rocket->aerodynamics;
@@ -290,19 +77,19 @@ FIND(static_margin)
 }
 
 // Last Mach number of the table beside the one that the rocket would reach in vacuum.
-FIND(last_mach)
+static plausible_pair last_mach(const plausible_entry *at)
 {
     const ld_rocket *rocket = &at->model->rocket;
     const ld_aerodynamics *air = &rocket->aerodynamics;
     const double sound = 340;
     double mean = rocket->full.mass - rocket->propellant / 2;
-    double gain = rocket->motor.absent ? 0 : estimate_impulse(&rocket->motor) / mean;
+    double gain = rocket->motor.absent ? 0 : estimate_impulse(at) / mean;
     bool ends = air->beyond_table == LD_BEYOND_ERROR && model_has_launcher(at->model);
-    return plausible_compare(greatest(&air->table, 0), ends ? gain / sound : NAN);
+    const ld_table *table = &air->table;
+    double last = table->data[(table->rows - 1) * table->columns];
+    return plausible_compare(last, ends ? gain / sound : NAN);
 }
 
-#define NO_LOW .low = -INFINITY
-#define NO_HIGH .high = INFINITY
 #define BORE .other = "the bore's radius"
 #define FRONT .other = "the position of the foremost adaptor"
 
@@ -314,37 +101,41 @@ const plausible_rule plausible_of_rocket[] = {
     {"rocket.propellant", .unit = "kg", .other = "rocket.mass", NO_LOW, .high = 0.95,
      .why = "little is left of the rocket"},
     {"rocket.propellant", .unit = "kg", .other = "the full mass less the empty one", .low = 0.5,
-     .high = 2, .find = propellant, .why = "both are what is burnt"},
-    {"rocket.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .find = center,
-     .of = "rocket.adaptors", .why = "the mass centre lies between the adaptors, or near them"},
-    {"rocket.empty.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .find = empty_center,
-     .of = "rocket.adaptors", .why = "the mass centre lies between the adaptors, or near them"},
+     .high = 2, .why = "both are what is burnt"},
+    {"rocket.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .of = "rocket.adaptors",
+     .why = "the mass centre lies between the adaptors, or near them"},
+    {"rocket.empty.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .of = "rocket.adaptors",
+     .why = "the mass centre lies between the adaptors, or near them"},
     {"rocket.eccentricity", "the mass centre's distance from the axis", .unit = "m", BORE, NO_LOW,
      .high = 0.1, .find = off_axis, .why = "rockets are balanced to about a millimetre"},
     {"rocket.dynamic_imbalance", "the angle of the inertia's axis", .unit = "rad", NO_LOW,
-     .high = PI / 180, .find = imbalance, .why = "rockets are balanced to a few mrad"},
+     .high = PI / 180, .form = PLAUSIBLE_NORM, .why = "rockets are balanced to a few mrad"},
     {"rocket.inertia.x", "the radius of gyration about x", .unit = "m", BORE, .low = 0.1, .high = 1,
-     .find = roll_gyration, .why = "the rocket passes through the bore"},
+     .form = PLAUSIBLE_GYRATION, .b = "rocket.mass", .why = "the rocket passes through the bore"},
     {"rocket.empty.inertia.x", "the radius of gyration about x", .unit = "m", BORE, .low = 0.1,
-     .high = 1, .find = empty_roll_gyration, .why = "the rocket passes through the bore"},
+     .high = 1, .form = PLAUSIBLE_GYRATION, .b = "rocket.empty.mass",
+     .why = "the rocket passes through the bore"},
     {"rocket.inertia.z", "the radius of gyration about z", .unit = "m", FRONT, .low = 0.05,
-     .high = 2, .find = pitch_gyration, .of = "rocket.adaptors",
+     .high = 2, .form = PLAUSIBLE_GYRATION, .b = "rocket.mass",
+     .with = "the position of the foremost adaptor in a bore", .of = "rocket.adaptors",
      .why = "the rocket is about as long as the distance of its adaptors"},
     {"rocket.empty.inertia.z", "the radius of gyration about z", .unit = "m", FRONT, .low = 0.05,
-     .high = 2, .find = empty_pitch_gyration, .of = "rocket.adaptors",
+     .high = 2, .form = PLAUSIBLE_GYRATION, .b = "rocket.empty.mass",
+     .with = "the position of the foremost adaptor in a bore", .of = "rocket.adaptors",
      .why = "the rocket is about as long as the distance of its adaptors"},
     {"rocket.adaptors", "the position of the foremost adaptor", .unit = "m", BORE, .low = 1,
-     NO_HIGH, .find = guidance, .why = "adaptors so close give little guidance"},
+     NO_HIGH, .a = "the position of the foremost adaptor",
+     .why = "adaptors so close give little guidance"},
     {"rocket.adaptors.#.at", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
      .why = "this adaptor is never in the tube"},
-    {"rocket.adaptors.#.clearance", .unit = "m", BORE, NO_LOW, .high = 0.1, .find = clearance,
+    {"rocket.adaptors.#.clearance", .unit = "m", BORE, NO_LOW, .high = 0.1,
      .why = "a clearance is a small part of the bore"},
     {"rocket.contact.stiffness", "the frequency of the rocket on it", .unit = "Hz", .low = 2,
-     .high = 5000, .find = contact_frequency,
+     .high = 5000, .form = PLAUSIBLE_FREQUENCY, .b = "rocket.mass",
      .why = "metal on metal is stiff, but a touch lasts longer than 0.1 ms"},
     {"rocket.contact.damping", "the decay time of the rocket's motion", .unit = "s",
-     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = contact_time, .of = "rocket.mass",
-     .why = "the integrator needs many short steps to follow it"},
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .form = PLAUSIBLE_DECAY, .b = "rocket.mass",
+     .of = "rocket.mass", .why = "the integrator needs many short steps to follow it"},
     {"rocket.contact.reference_penetration", .unit = "m", .low = 1e-6, .high = 0.02,
      .why = "penetrations are fractions of a millimetre"},
     {"rocket.contact.reference_speed", .unit = "m/s", .low = 1e-3, .high = 50,
@@ -354,16 +145,17 @@ const plausible_rule plausible_of_rocket[] = {
     {"rocket.contact.friction_speed", .unit = "m/s", .low = 1e-6, .high = 1,
      .why = "it only smooths friction near zero speed"},
     {"rocket.lock.release_force", .unit = "N", .other = "the greatest thrust", NO_LOW, .high = 1,
-     .find = release_force, .why = "the lock never releases"},
+     .when = "no pressure", .why = "the lock never releases"},
     {"rocket.lock.release_force", .unit = "N", .other = "the greatest force of pressure and thrust",
-     NO_LOW, .high = 1, .find = release_by_pressure, .why = "the lock never releases"},
+     NO_LOW, .high = 1, .when = "a pressure", .why = "the lock never releases"},
     {"rocket.lock.release_force", .unit = "N", .other = "the weight towards the tip", .low = 1,
-     NO_HIGH, .find = release_by_weight, .why = "the lock releases before the ignition"},
+     NO_HIGH, .why = "the lock releases before the ignition"},
     {"rocket.lock.hold_down", .unit = "s", .other = "the burn time of the motor", NO_LOW,
-     .high = 0.5, .find = hold_down, .why = "propellant burnt before the release drives nothing"},
-    {"rocket.lock.at.x", .unit = "m", FRONT, .low = -1, .high = 1.5, .find = lock_along,
-     .of = "rocket.adaptors", .why = "the lock holds the rocket's body"},
-    {"rocket.lock.at.radius", .unit = "m", BORE, NO_LOW, .high = 1.1, .find = lock_across,
+     .high = 0.5, .when = "no pressure",
+     .why = "propellant burnt before the release drives nothing"},
+    {"rocket.lock.at.x", .unit = "m", FRONT, .low = -1, .high = 1.5, .of = "rocket.adaptors",
+     .why = "the lock holds the rocket's body"},
+    {"rocket.lock.at.radius", .unit = "m", BORE, NO_LOW, .high = 1.1,
      .why = "the lock holds the rocket's body"},
     {"rocket.motor.thrust.#", "the thrust", .unit = "N", .low = 0, NO_HIGH, .find = negative_thrust,
      .why = "a motor does not pull; thrust below 0 counts as 0 N"},
@@ -373,17 +165,21 @@ const plausible_rule plausible_of_rocket[] = {
     {"rocket.motor.thrust.#", "the time since the row before", .unit = "s", .low = 1e-6, NO_HIGH,
      .find = thrust_corner, .why = "for a jump give the same time twice"},
     {"rocket.motor.thrust", "the greatest thrust", .unit = "N",
-     .other = "the weight towards the rear", .low = 1, NO_HIGH, .find = thrust_by_weight,
-     .why = "the rocket never leaves"},
+     .other = "the weight towards the rear", .low = 1, NO_HIGH,
+     .a = "the greatest force of pressure and thrust", .why = "the rocket never leaves"},
     {"rocket.motor.thrust", "the greatest thrust over the mass", .unit = "m/s2", NO_LOW,
-     .high = 5e4, .find = acceleration, .why = "that is 5000 times gravity"},
+     .high = 5e4, .form = PLAUSIBLE_RATIO, .a = "the greatest thrust", .b = "rocket.mass",
+     .why = "that is 5000 times gravity"},
     {"rocket.motor.thrust", "impulse over propellant (the exhaust speed)", .unit = "m/s",
-     .low = 500, .high = 6000, .find = exhaust_speed, .of = "rocket.propellant",
+     .low = 500, .high = 6000, .form = PLAUSIBLE_RATIO, .a = "the impulse of the motor",
+     .b = "rocket.propellant", .when = "rocket.propellant", .of = "rocket.propellant",
      .why = "solid propellants have 1800 m/s to 2800 m/s"},
-    {"rocket.motor.at.x", .unit = "m", FRONT, .low = -1, .high = 1, .find = nozzle_along,
-     .of = "rocket.adaptors", .why = "thrust acts at the nozzle"},
+    {"rocket.motor.at.x", .unit = "m", FRONT, .low = -1, .high = 1,
+     .with = "the position of the foremost adaptor in a bore", .of = "rocket.adaptors",
+     .why = "thrust acts at the nozzle"},
     {"rocket.motor.at", "the distance from the axis", .unit = "m", BORE, NO_LOW, .high = 0.5,
-     .find = nozzle_across, .why = "thrust acts at the nozzle"},
+     .form = PLAUSIBLE_DISTANCE, .a = "rocket.motor.at.y", .b = "rocket.motor.at.z",
+     .why = "thrust acts at the nozzle"},
     {"rocket.motor.misalignment.y", .unit = "rad", .low = -0.05, .high = 0.05,
      .why = "motors are aligned to a few mrad"},
     {"rocket.motor.misalignment.z", .unit = "rad", .low = -0.05, .high = 0.05,
@@ -396,27 +192,28 @@ const plausible_rule plausible_of_rocket[] = {
      .high = 100, .find = speed_of_descent,
      .why = "rockets come down at 15 to 40 m/s under a drogue, at 4 to 10 m/s under a main"},
     {"rocket.parachutes.#.time", "the time of its opening", .unit = "s",
-     .other = "the burn time of the motor", .low = 1, NO_HIGH, .find = opening_time,
+     .other = "the burn time of the motor", .low = 1, NO_HIGH,
+     .a = "the time at which the parachute opens", .when = "a motor",
      .why = "under a parachute the thrust is ignored"},
     {"rocket.parachutes.#.filling", .unit = "s", NO_LOW, .high = 20,
      .why = "parachutes fill in some tenths of a second to a few seconds"},
     {"rocket.aerodynamics.reference_diameter", .unit = "m", .other = "the bore's diameter",
-     .low = 0.2, .high = 1.05, .find = diameter, .why = "the rocket passes through the bore"},
+     .low = 0.2, .high = 1.05, .why = "the rocket passes through the bore"},
     {"rocket.aerodynamics.area", .unit = "m2", .other = "the area of the bore", .low = 0.04,
-     .high = 2, .find = area, .why = "the rocket passes through the bore"},
-    {"rocket.aerodynamics.emerged.nose", .unit = "m", FRONT, NO_LOW, .high = 3, .find = nose,
+     .high = 2, .when = "rocket.aerodynamics.area", .why = "the rocket passes through the bore"},
+    {"rocket.aerodynamics.emerged.nose", .unit = "m", FRONT, NO_LOW, .high = 3,
      .of = "rocket.adaptors", .why = "the nose is not far before the foremost adaptor"},
     {"rocket.aerodynamics.emerged.drag", .unit = "", .low = 0.1, .high = 3,
      .why = "that of a cylinder across the wind is 1.2"},
     {"rocket.aerodynamics.emerged.diameter", .unit = "m", .other = "the bore's diameter",
-     .low = 0.2, .high = 1.05, .find = emerged_diameter,
-     .why = "the rocket passes through the bore"},
+     .low = 0.2, .high = 1.05, .why = "the rocket passes through the bore"},
     {"rocket.aerodynamics.fin_cant", .unit = "rad", .low = -20 * PI / 180, .high = 20 * PI / 180,
      .why = "fins are canted by a degree or so"},
     {"rocket.aerodynamics.table", "the greatest ca_power_off", .unit = "", NO_LOW, .high = 5,
-     .find = axial_coefficient, .why = "that of rockets is 0.2 to 1"},
+     .form = PLAUSIBLE_GREATEST, .column = CA_POWER_OFF, .b = "rocket.aerodynamics.ca_scale",
+     .why = "that of rockets is 0.2 to 1"},
     {"rocket.aerodynamics.table", "the greatest cn_alpha", .unit = "", .low = 0.5, .high = 100,
-     .find = normal_coefficient,
+     .form = PLAUSIBLE_GREATEST, .column = CN_ALPHA,
      .why = "that of rockets is 2 to 20 per radian; per degree it would be 57 times less"},
     {"rocket.aerodynamics.table", "the static margin in calibres", .unit = "", .low = -20,
      .high = 20, .find = static_margin, .why = "x_cp counts forward from the rear adaptor"},

@@ -1,18 +1,18 @@
 // Plausibility of the environment, flights, runs and studies.
 #include "math/functions.h"
 #include "model/fields/factor.h"
+#include "model/fields/field.h"
 #include "model/model.h"
 #include "model/moist_air.h"
 #include "model/parts.h"
 #include "model/warnings/estimates.h"
-#include "model/warnings/plausible.h"
+#include "model/warnings/plausible_rule.h"
 
 #define PI 3.14159265358979323846
-#define FIND(name) static plausible_pair name(const plausible_entry *at)
 
 // ---- environment
 
-FIND(profile_speed)
+static plausible_pair profile_speed(const plausible_entry *at)
 {
     const ld_table *profile = &at->model->environment.wind.profile;
     double most = 0;
@@ -39,7 +39,7 @@ static double hydrostatic_fall(const double *row, const double *next, size_t col
 }
 
 // The row that is farthest from resting on the one before, by more than is measured otherwise.
-FIND(air_at_rest)
+static plausible_pair air_at_rest(const plausible_entry *at)
 {
     const ld_atmosphere *air = &at->model->environment.atmosphere;
     const ld_table *profile = &air->profile;
@@ -67,7 +67,7 @@ static plausible_pair top_above_site(const ld_table *table, double zero)
     return plausible_alone(top - zero);
 }
 
-FIND(top_of_air)
+static plausible_pair top_of_air(const plausible_entry *at)
 {
     const ld_environment *environment = &at->model->environment;
     bool given = environment->atmosphere.kind == LD_ATMOSPHERE_PROFILE;
@@ -75,109 +75,17 @@ FIND(top_of_air)
                  : plausible_nothing();
 }
 
-FIND(top_of_wind)
+static plausible_pair top_of_wind(const plausible_entry *at)
 {
     const ld_environment *environment = &at->model->environment;
     bool geographic = environment->wind.axes == LD_WIND_GEOGRAPHIC;
     return top_above_site(&environment->wind.profile, geographic ? environment->site.altitude : 0);
 }
 
-// Altitude at the start where there are air forces by a table that ends.
-static double altitude_in_air(const ld_model *model, double altitude)
-{
-    bool flies = model->rocket.aerodynamics.present &&
-                 (model->environment.atmosphere.kind == LD_ATMOSPHERE_US1976 ||
-                  model->environment.atmosphere.kind == LD_ATMOSPHERE_PROFILE);
-    return flies ? altitude : NAN;
-}
-
-FIND(site_altitude)
-{
-    const ld_model *model = at->model;
-    return plausible_alone(altitude_in_air(model, model->environment.site.altitude));
-}
-
-FIND(geodetic_altitude)
-{
-    return plausible_alone(altitude_in_air(at->model, at->model->flight.geodetic.altitude));
-}
-
-// ---- flight
-
-static double norm(const double v[3])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
-
-FIND(start_speed)
-{
-    return plausible_alone(norm(at->model->flight.velocity));
-}
-
-FIND(start_rate)
-{
-    return plausible_alone(norm(at->model->flight.rate));
-}
-
-FIND(flight_limit)
-{
-    const ld_model *model = at->model;
-    bool flies = model->run.end != LD_END_TIP && !model->rocket.motor.absent;
-    return plausible_compare(flies ? model->run.flight_limit : NAN,
-                             estimate_burn_time(&model->rocket.motor));
-}
-
-FIND(flight_step)
-{
-    const ld_run_settings *run = &at->model->run;
-    bool flies = run->end != LD_END_TIP;
-    return plausible_compare(flies ? run->output_step_flight : NAN, run->flight_limit);
-}
-
 // ---- launch
 
-static double of_launch(const ld_model *model, double value)
-{
-    return model_has_launcher(model) ? value : NAN;
-}
-
-FIND(lead_in)
-{
-    const ld_model *model = at->model;
-    const ld_vehicle *vehicle = &model->base.vehicle;
-    bool shaken =
-        model_has_vehicle(model) && vehicle->speed > 0 && vehicle->road.form == LD_ROAD_SUM;
-    return plausible_compare(shaken ? model->run.lead_in : NAN,
-                             1 / estimate_heave_frequency(model));
-}
-
-FIND(lead_in_step)
-{
-    const ld_run_settings *run = &at->model->run;
-    return plausible_compare(of_launch(at->model, run->output_step_lead_in),
-                             run->lead_in > 0 ? run->lead_in : NAN);
-}
-
-FIND(tube_step)
-{
-    return plausible_compare(of_launch(at->model, at->model->run.output_step_tube),
-                             estimate_time_in_tube(at->model));
-}
-
-FIND(max_step)
-{
-    return plausible_compare(of_launch(at->model, at->model->run.max_step),
-                             estimate_time_in_tube(at->model));
-}
-
-FIND(stuck_time)
-{
-    return plausible_compare(of_launch(at->model, at->model->run.stuck_time),
-                             estimate_time_in_tube(at->model));
-}
-
 // Rows of the histories until the last ignition, and of the flights where there are such.
-FIND(rows)
+static plausible_pair rows(const plausible_entry *at)
 {
     const ld_model *model = at->model;
     const ld_run_settings *run = &model->run;
@@ -189,22 +97,17 @@ FIND(rows)
     return plausible_alone(count);
 }
 
-FIND(interval)
+static plausible_pair interval(const plausible_entry *at)
 {
     const ld_model *model = at->model;
     const ld_firing *firing = &model->firing[at->i];
     return plausible_compare(at->i > 0 ? firing->at - firing[-1].at : NAN,
-                             estimate_time_in_tube(model));
-}
-
-FIND(order_interval)
-{
-    return plausible_compare(at->model->firing_order.interval, estimate_time_in_tube(at->model));
+                             estimate_time_in_tube(at));
 }
 
 // ---- studies
 
-FIND(launches)
+static plausible_pair launches(const plausible_entry *at)
 {
     double launches = at->model->scatter.samples;
     for (int i = 0; i < at->model->sweep_count; i++)
@@ -212,7 +115,7 @@ FIND(launches)
     return plausible_alone(launches);
 }
 
-FIND(samples_of_cube)
+static plausible_pair samples_of_cube(const plausible_entry *at)
 {
     const ld_scatter *scatter = &at->model->scatter;
     return plausible_alone((double)scatter->samples / scatter->replicates);
@@ -239,14 +142,14 @@ static plausible_pair of_factor(const plausible_entry *at, double value)
     return pair;
 }
 
-FIND(deviation)
+static plausible_pair deviation(const plausible_entry *at)
 {
     const ld_factor *factor = &at->model->scatter.factor[at->i];
     bool free = given_of(factor) == LD_GIVEN_DEVIATION && isnan(factor->between[0]);
     return of_factor(at, free ? factor->deviation : NAN);
 }
 
-FIND(log_deviation)
+static plausible_pair log_deviation(const plausible_entry *at)
 {
     const ld_factor *factor = &at->model->scatter.factor[at->i];
     plausible_pair pair =
@@ -255,29 +158,27 @@ FIND(log_deviation)
     return pair;
 }
 
-FIND(spread)
+static plausible_pair spread(const plausible_entry *at)
 {
     const ld_factor *factor = &at->model->scatter.factor[at->i];
     bool about = given_of(factor) == LD_GIVEN_SPAN && isnan(factor->between[0]);
     return of_factor(at, about ? factor->spread : NAN);
 }
 
-FIND(middle)
+static plausible_pair middle(const plausible_entry *at)
 {
     const ld_factor *factor = &at->model->scatter.factor[at->i];
     bool span = given_of(factor) == LD_GIVEN_SPAN && !isnan(factor->between[0]);
     return of_factor(at, span ? (factor->between[0] + factor->between[1]) / 2 : NAN);
 }
 
-#define NO_LOW .low = -INFINITY
-#define NO_HIGH .high = INFINITY
 #define TIME_IN_TUBE .other = "the shortest time in the tube"
 #define NOMINAL .other = "the nominal value"
 
 const plausible_rule plausible_of_run[] = {
     {"environment.gravity", .unit = "m/s2", NO_LOW, .high = 30,
      .why = "that of the Earth is 9.8 m/s2"},
-    {"environment.site.altitude", .unit = "m", NO_LOW, .high = 86000, .find = site_altitude,
+    {"environment.site.altitude", .unit = "m", NO_LOW, .high = 86000, .when = "air of a table",
      .why = "us1976 ends there"},
     {"environment.atmosphere.density", .unit = "kg/m3", NO_LOW, .high = 10,
      .why = "that of air on the ground is 1.2 kg/m3"},
@@ -303,37 +204,37 @@ const plausible_rule plausible_of_run[] = {
      .why = "severe turbulence is that of 23 m/s"},
     {"flight.speed", .unit = "m/s", .low = -12000, .high = 12000,
      .why = "that exceeds the Earth's escape velocity"},
-    {"flight.velocity", "the speed", .unit = "m/s", NO_LOW, .high = 12000, .find = start_speed,
+    {"flight.velocity", "the speed", .unit = "m/s", NO_LOW, .high = 12000, .form = PLAUSIBLE_NORM,
      .why = "that exceeds the Earth's escape velocity"},
     {"flight.rate", "the angular velocity", .unit = "rad/s", NO_LOW, .high = 3000,
-     .find = start_rate, .why = "that is more than 28000 rpm"},
-    {"flight.geodetic.altitude", .unit = "m", NO_LOW, .high = 86000, .find = geodetic_altitude,
+     .form = PLAUSIBLE_NORM, .why = "that is more than 28000 rpm"},
+    {"flight.geodetic.altitude", .unit = "m", NO_LOW, .high = 86000, .when = "air of a table",
      .why = "us1976 ends there"},
     {"firing.#.at", "the time since the firing before", .unit = "s", TIME_IN_TUBE, .low = 1,
      NO_HIGH, .find = interval, .why = "one rocket leaves before the next one ignites"},
-    {"firing.interval", .unit = "s", TIME_IN_TUBE, .low = 1, NO_HIGH, .find = order_interval,
+    {"firing.interval", .unit = "s", TIME_IN_TUBE, .low = 1, NO_HIGH,
      .why = "one rocket leaves before the next one ignites"},
     {"run.lead_in", .unit = "s", .other = "the period of the vehicle's heave", .low = 1,
-     .high = 1000, .find = lead_in, .of = "base.suspension.stiffness.y",
+     .high = 1000, .when = "a road that shakes", .of = "base.suspension.stiffness.y",
      .why = "the response to the road builds up over some periods; a thousand add nothing"},
     {"run.tolerance", .unit = "", NO_LOW, .high = 1e-3,
      .why = "results have fewer than three correct digits"},
     {"run.flight_tolerance", .unit = "", NO_LOW, .high = 1e-4,
      .why = "results have fewer than four correct digits"},
-    {"run.max_step", .unit = "s", TIME_IN_TUBE, NO_LOW, .high = 0.1, .find = max_step,
+    {"run.max_step", .unit = "s", TIME_IN_TUBE, NO_LOW, .high = 0.1,
      .why = "steps miss short contacts"},
-    {"run.stuck_time", .unit = "s", TIME_IN_TUBE, .low = 1, NO_HIGH, .find = stuck_time,
+    {"run.stuck_time", .unit = "s", TIME_IN_TUBE, .low = 1, NO_HIGH,
      .why = "the run ends before the rocket can leave"},
     {"run.output_step.lead_in", .unit = "s", .other = "run.lead_in", NO_LOW, .high = 1,
-     .find = lead_in_step, .why = "the settling phase has rows at its ends only"},
-    {"run.output_step.tube", .unit = "s", TIME_IN_TUBE, NO_LOW, .high = 0.2, .find = tube_step,
+     .when = "run.lead_in", .why = "the settling phase has rows at its ends only"},
+    {"run.output_step.tube", .unit = "s", TIME_IN_TUBE, NO_LOW, .high = 0.2,
      .why = "the history has few rows with the rocket in the tube"},
     {"run.output_step.flight", .unit = "s", .other = "run.flight_limit", NO_LOW, .high = 0.1,
-     .find = flight_step, .why = "the history has few rows of the flight"},
+     .when = "a free flight", .why = "the history has few rows of the flight"},
     {"run.output_step", "the number of rows", .unit = "", NO_LOW, .high = 1e7, .find = rows,
      .why = "histories take about a kilobyte a row"},
     {"run.flight_limit", .unit = "s", .other = "the burn time of the motor", .low = 1, NO_HIGH,
-     .find = flight_limit, .why = "the flight ends while the motor burns"},
+     .when = "a powered flight", .why = "the flight ends while the motor burns"},
     {"scatter.samples", "the number of runs over all points", .unit = "", NO_LOW, .high = 1e7,
      .find = launches, .why = "a million launches take hours"},
     {"scatter.replicates", "the number of samples in a hypercube", .unit = "", .low = 2, NO_HIGH,

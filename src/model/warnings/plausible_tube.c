@@ -4,84 +4,12 @@
 #include "model/model.h"
 #include "model/parts.h"
 #include "model/warnings/estimates.h"
-#include "model/warnings/plausible.h"
+#include "model/warnings/plausible_rule.h"
 
 #define PI 3.14159265358979323846
-#define FIND(name) static plausible_pair name(const plausible_entry *at)
-
-// ---- sections
-
-static const ld_section *section_of(const plausible_entry *at)
-{
-    return &at->model->tubes.section[at->i];
-}
-
-// Its radius; NaN of a beam that carries surfaces.
-static double bore_of(const plausible_entry *at)
-{
-    return model_has_surfaces(at->model) ? NAN : section_of(at)->bore_radius;
-}
-
-FIND(wall_thickness)
-{
-    const ld_section *s = section_of(at);
-    return plausible_compare(s->outer_radius - s->bore_radius, s->bore_radius);
-}
-
-FIND(wall_area)
-{
-    const ld_section *s = section_of(at);
-    return plausible_compare(s->area, PI * bore_of(at) * bore_of(at));
-}
-
-// Radius about which the wall lies: of a thin ring sqrt(2 I/A).
-FIND(radius_of_area)
-{
-    const ld_section *s = section_of(at);
-    return plausible_compare(sqrt(2 * s->second_moment / s->area), bore_of(at));
-}
-
-FIND(radius_of_stiffness)
-{
-    const ld_section *s = section_of(at);
-    return plausible_compare(sqrt(2 * s->bending_stiffness / s->axial_stiffness), bore_of(at));
-}
-
-// Radius of gyration about z, beside the tube's length.
-FIND(radius_of_plane)
-{
-    const ld_section *s = section_of(at);
-    double stiffness = s->form == LD_SECTION_PLANES ? s->bending_stiffness_z : NAN;
-    return plausible_compare(sqrt(stiffness / s->axial_stiffness), at->model->tubes.length);
-}
-
-FIND(radius_of_inertia)
-{
-    const ld_section *s = section_of(at);
-    return plausible_compare(sqrt(s->polar_inertia / s->mass_per_length), bore_of(at));
-}
-
-FIND(mass_over_area)
-{
-    const ld_section *s = section_of(at);
-    return plausible_alone(s->form == LD_SECTION_AREA ? s->mass_per_length / s->area : NAN);
-}
-
-FIND(wave_speed)
-{
-    const ld_section *s = section_of(at);
-    return plausible_alone(sqrt(s->axial_stiffness / s->mass_per_length));
-}
-
-// ---- the tube
-
-FIND(slenderness)
-{
-    return plausible_compare(at->model->tubes.length, estimate_bore(at->model));
-}
 
 // Frequency of the highest bending mode, about that of a clamped tube, beside that of steps.
-FIND(highest_mode)
+static plausible_pair highest_mode(const plausible_entry *at)
 {
     const ld_tubes *tubes = &at->model->tubes;
     const ld_section *s = tubes->section;
@@ -92,20 +20,7 @@ FIND(highest_mode)
                              1 / at->model->run.max_step);
 }
 
-FIND(tail_mass)
-{
-    const ld_tubes *tubes = &at->model->tubes;
-    return plausible_compare(tubes->tail.mass, estimate_tube_mass(tubes) - tubes->tail.mass);
-}
-
-FIND(point_mass)
-{
-    const ld_tubes *tubes = &at->model->tubes;
-    double mass = tubes->point_mass[at->i].mass;
-    return plausible_compare(mass, estimate_tube_mass(tubes) - mass);
-}
-
-FIND(support_frequency)
+static plausible_pair support_frequency(const plausible_entry *at)
 {
     const ld_tubes *tubes = &at->model->tubes;
     double stiffness = 0;
@@ -113,12 +28,12 @@ FIND(support_frequency)
         stiffness += support_clamps(&tubes->support[i], LD_CLAMP_Y)
                          ? NAN
                          : support_spring(&tubes->support[i], LD_CLAMP_Y);
-    double mass = estimate_tube_mass(tubes) + at->model->rocket.full.mass;
+    double mass = estimate_tube_mass(at) + at->model->rocket.full.mass;
     return plausible_alone(stiffness > 0 ? sqrt(stiffness / mass) / (2 * PI) : NAN);
 }
 
 // Time [s] in which the supports' dampers take the tube's motion along an axis, the shortest.
-FIND(support_time)
+static plausible_pair support_time(const plausible_entry *at)
 {
     const ld_tubes *tubes = &at->model->tubes;
     double greatest = 0;
@@ -128,16 +43,16 @@ FIND(support_time)
             damping += tubes->support[i].damping[axis];
         greatest = fmax(greatest, damping);
     }
-    return plausible_compare(greatest > 0 ? estimate_tube_mass(tubes) / greatest : NAN,
+    return plausible_compare(greatest > 0 ? estimate_tube_mass(at) / greatest : NAN,
                              at->model->run.max_step);
 }
 
 // Shortest decay time [s] of the tube's rotation by their rotational dampers; across the axis as of
 // a rod.
-FIND(support_turning_time)
+static plausible_pair support_turning_time(const plausible_entry *at)
 {
     const ld_tubes *tubes = &at->model->tubes;
-    double rod = estimate_tube_mass(tubes) * tubes->length * tubes->length / 12;
+    double rod = estimate_tube_mass(at) * tubes->length * tubes->length / 12;
     const double inertia[3] = {tubes->section->polar_inertia * tubes->length, rod, rod};
     double shortest = INFINITY;
     for (int axis = 0; axis < 3; axis++) {
@@ -150,15 +65,6 @@ FIND(support_turning_time)
     return plausible_compare(isfinite(shortest) ? shortest : NAN, at->model->run.max_step);
 }
 
-// Time [s] in which a slide's damper takes the tube's recoil.
-FIND(recoil_time)
-{
-    const ld_recoil *recoil = &at->model->tubes.support[at->i].recoil;
-    double mass = estimate_tube_mass(&at->model->tubes);
-    return plausible_compare(recoil->present && recoil->damping > 0 ? mass / recoil->damping : NAN,
-                             at->model->run.max_step);
-}
-
 static double greatest_spring(const ld_support *support)
 {
     double greatest = 0;
@@ -169,7 +75,7 @@ static double greatest_spring(const ld_support *support)
 
 // The stiffness of a support that has springs along the axes alone, if any, beside that of the
 // stiffest one.
-FIND(support_stiffness)
+static plausible_pair support_stiffness(const plausible_entry *at)
 {
     const ld_tubes *tubes = &at->model->tubes;
     const ld_support *support = &tubes->support[at->i];
@@ -182,7 +88,7 @@ FIND(support_stiffness)
 }
 
 // The distance of a station that is clamped from the nearest of those before it.
-FIND(clamped_distance)
+static plausible_pair clamped_distance(const plausible_entry *at)
 {
     const ld_support *support = at->model->tubes.support;
     double nearest = NAN;
@@ -193,7 +99,7 @@ FIND(clamped_distance)
 }
 
 // Where the outer fibre lies beside the radius of gyration of its direction, the nearer of both.
-FIND(outer_fibre)
+static plausible_pair outer_fibre(const plausible_entry *at)
 {
     const ld_tubes *tubes = &at->model->tubes;
     const ld_station *station = &tubes->station[at->i];
@@ -207,146 +113,71 @@ FIND(outer_fibre)
 }
 
 // What the recuperators carry beside the weight that pulls the tube out of battery.
-FIND(preload)
+static plausible_pair preload(const plausible_entry *at)
 {
     const ld_model *model = at->model;
     const ld_tubes *tubes = &model->tubes;
-    double mass = estimate_tube_mass(tubes) + model->rocket.full.mass, preload = 0;
-    double weight = estimate_weight_along(model) / model->rocket.full.mass * mass;
+    double mass = estimate_tube_mass(at) + model->rocket.full.mass, preload = 0;
+    double weight = estimate_weight_along(at) / model->rocket.full.mass * mass;
     for (int i = 0; i < tubes->support_count; i++)
         preload += tubes->support[i].recoil.present ? tubes->support[i].recoil.preload : 0;
     return plausible_compare(preload, weight > 0 ? weight : NAN);
 }
 
-// The greatest force on a rocket without motor beside the weight that holds it back.
-FIND(pressure_by_weight)
-{
-    double weight = estimate_weight_along(at->model);
-    double force = at->model->rocket.motor.absent ? estimate_peak_pressure(at->model) : NAN;
-    return plausible_compare(force, weight > 0 ? weight : NAN);
-}
-
-FIND(greatest_pressure)
-{
-    double bore = estimate_bore(at->model);
-    return plausible_alone(estimate_peak_pressure(at->model) / (PI * bore * bore));
-}
-
-// Reservoir beside what the rocket leaves behind it in the bore.
-FIND(gas_volume)
-{
-    const ld_tubes *tubes = &at->model->tubes;
-    double bore = estimate_bore(at->model), way = tubes->length - at->model->rocket.start_at;
-    return plausible_compare(tubes->pressure.volume, PI * bore * bore * way);
-}
-
-// Pressure of the gas when the rocket leaves.
-FIND(expanded)
-{
-    const ld_model *model = at->model;
-    const ld_pressure *gas = &model->tubes.pressure;
-    double bore = estimate_bore(model), way = model->tubes.length - model->rocket.start_at;
-    double volume = gas->volume + PI * bore * bore * way;
-    return plausible_compare(gas->ambient,
-                             gas->scale * gas->pressure * pow(gas->volume / volume, gas->exponent));
-}
-
-FIND(pitch)
-{
-    const ld_layout *layout = &at->model->tubes.layout;
-    bool several = layout->rows * layout->columns > 1;
-    return plausible_compare(several ? layout->pitch : NAN, 2 * estimate_bore(at->model));
-}
-
-FIND(first_tube)
-{
-    return plausible_compare(plausible_norm(at->model->tubes.layout.first),
-                             at->model->tubes.length);
-}
-
 // ---- guide of surfaces
 
-FIND(guide_line)
-{
-    const double *line = at->model->tubes.guide.line;
-    return plausible_compare(hypot(line[0], line[1]), at->model->tubes.length);
-}
-
-FIND(surface_place)
-{
-    const double *place = at->model->tubes.guide.surface[at->i].at;
-    return plausible_compare(hypot(place[0], place[1]), at->model->tubes.length);
-}
-
 // Angle that the widest gap and the opposite one leave the rocket between its outer shoes.
-FIND(play)
+static plausible_pair play(const plausible_entry *at)
 {
     ld_surface surface[LD_MAX_SURFACES];
     int count = guide_surfaces(&at->model->tubes.guide, surface);
-    double widest = 0, front = estimate_front(at->model);
+    double widest = 0, front = estimate_front(at);
     for (int k = 0; k < count; k++)
         widest = fmax(widest, surface[k].gap);
     return plausible_alone(count > 0 ? 2 * widest / front : NAN);
 }
 
-FIND(shoe_clearance)
-{
-    const ld_model *model = at->model;
-    return plausible_alone(model_has_surfaces(model) ? model->rocket.adaptor[at->i].clearance
-                                                     : NAN);
-}
-
 // ---- slot
 
-FIND(slot_radius)
-{
-    return plausible_compare(at->model->tubes.slot.radius, estimate_bore(at->model));
-}
-
-FIND(slot_angle)
-{
-    const ld_table *angle = &at->model->tubes.slot.angle;
-    double greatest = 0;
-    for (size_t i = 0; i < angle->rows; i++)
-        greatest = fmax(greatest, fabs(angle->data[2 * i + 1]));
-    return plausible_alone(greatest);
-}
-
-#define NO_LOW .low = -INFINITY
-#define NO_HIGH .high = INFINITY
 #define BORE .other = "the bore's radius"
 
 const plausible_rule plausible_of_tube[] = {
-    {"tubes.length", .unit = "m", BORE, .low = 2, .high = 500, .find = slenderness,
+    {"tubes.length", .unit = "m", BORE, .low = 2, .high = 500,
      .why = "a launch tube is 2 to 500 bore radii long"},
     {"tubes.sections.#.outer_radius", "the wall's thickness", .unit = "m",
-     .other = "the section's inner radius", .low = 0.002, .high = 1, .find = wall_thickness,
+     .other = "the section's inner radius", .low = 0.002, .high = 1, .form = PLAUSIBLE_DIFFERENCE,
+     .b = "tubes.sections.#.inner_radius", .with = "tubes.sections.#.inner_radius",
      .why = "walls of tubes lie in this range"},
     {"tubes.sections.#.area", .unit = "m2", .other = "the area of the bore", .low = 0.004,
-     .high = 3, .find = wall_area, .why = "walls of tubes lie in this range"},
+     .high = 3, .with = "the area of the section's bore",
+     .why = "walls of tubes lie in this range"},
     {"tubes.sections.#.second_moment", "the wall's mean radius by its moment and area", .unit = "m",
-     BORE, .low = 0.5, .high = 3, .find = radius_of_area, .why = "a wall lies around its bore"},
+     BORE, .low = 0.5, .high = 3, .form = PLAUSIBLE_RING, .b = "tubes.sections.#.area",
+     .with = "the section's bore", .why = "a wall lies around its bore"},
     {"tubes.sections.#.torsion_constant", .unit = "m4", .other = "tubes.sections.#.second_moment",
      .low = 1e-5, .high = 2.5,
      .why = "that of a ring is twice its second moment, of an open one less"},
     {"tubes.sections.#.bending_stiffness", "the wall's mean radius by its stiffnesses", .unit = "m",
-     BORE, .low = 0.5, .high = 3, .find = radius_of_stiffness,
-     .why = "a wall lies around its bore"},
+     BORE, .low = 0.5, .high = 3, .form = PLAUSIBLE_RING, .b = "tubes.sections.#.axial_stiffness",
+     .with = "the section's bore", .why = "a wall lies around its bore"},
     {"tubes.sections.#.bending_stiffness_y", .unit = "N.m2",
      .other = "tubes.sections.#.bending_stiffness_z", .low = 0.002, .high = 500,
      .why = "a section so much stiffer in one plane is a sheet"},
     {"tubes.sections.#.bending_stiffness_z", "the radius of gyration by its stiffnesses",
-     .unit = "m", .other = "tubes.length", .low = 2e-4, .high = 0.2, .find = radius_of_plane,
-     .why = "guides are slender beams"},
+     .unit = "m", .other = "tubes.length", .low = 2e-4, .high = 0.2, .form = PLAUSIBLE_GYRATION,
+     .b = "tubes.sections.#.axial_stiffness", .why = "guides are slender beams"},
     {"tubes.sections.#.torsion_stiffness", .unit = "N.m2",
      .other = "tubes.sections.#.bending_stiffness", .low = 1e-5, .high = 2.5,
      .why = "that of a ring is a little less than its bending stiffness"},
     {"tubes.sections.#.axial_stiffness", "the speed of sound along the wall", .unit = "m/s",
-     .low = 100, .high = 20000, .find = wave_speed, .why = "that of steel is 5200 m/s"},
+     .low = 100, .high = 20000, .form = PLAUSIBLE_GYRATION, .b = "tubes.sections.#.mass_per_length",
+     .why = "that of steel is 5200 m/s"},
     {"tubes.sections.#.mass_per_length", "mass over volume of the wall", .unit = "kg/m3",
-     .low = 300, .high = 40000, .find = mass_over_area, .why = "that of steel is 7850 kg/m3"},
+     .low = 300, .high = 40000, .form = PLAUSIBLE_RATIO, .b = "tubes.sections.#.area",
+     .why = "that of steel is 7850 kg/m3"},
     {"tubes.sections.#.polar_inertia", "the mean radius of the mass", .unit = "m", BORE, .low = 0.5,
-     .high = 5, .find = radius_of_inertia, .why = "a wall lies around its bore"},
+     .high = 5, .form = PLAUSIBLE_GYRATION, .b = "tubes.sections.#.mass_per_length",
+     .with = "the section's bore", .why = "a wall lies around its bore"},
     {"tubes.material.density", .unit = "kg/m3", .low = 500, .high = 23000,
      .why = "wood has 500 kg/m3, steel 7850 kg/m3, no metal more than 22600 kg/m3"},
     {"tubes.material.youngs_modulus", .unit = "Pa", .low = 1e8, .high = 1e12,
@@ -361,12 +192,12 @@ const plausible_rule plausible_of_tube[] = {
      .other = "1/run.max_step", NO_LOW, .high = 20, .find = highest_mode, .of = "run.max_step",
      .why = "the integrator needs many short steps to follow it"},
     {"tubes.tail.mass", .unit = "kg", .other = "the mass of the tube", NO_LOW, .high = 20,
-     .find = tail_mass, .of = "tubes.material.density", .why = "a tail is a part of the tube"},
+     .with = "the mass of the rest of the tube", .of = "tubes.material.density",
+     .why = "a tail is a part of the tube"},
     {"tubes.tail.center", .unit = "m", .other = "tubes.length", .low = -1, .high = 1,
      .why = "a tail is welded to the rear end"},
     {"tubes.point_masses.#.mass", .unit = "kg", .other = "the mass of the rest of the tube", NO_LOW,
-     .high = 20, .find = point_mass, .of = "tubes.material.density",
-     .why = "a guide ring is a part of the tube"},
+     .high = 20, .of = "tubes.material.density", .why = "a guide ring is a part of the tube"},
     {"tubes.supports", "the frequency of tube and rocket on their stiffness along y", .unit = "Hz",
      .low = 0.5, .high = 10000, .find = support_frequency, .of = "tubes.material.density",
      .why = "supports are stiffer than rubber and softer than rock"},
@@ -380,8 +211,9 @@ const plausible_rule plausible_of_tube[] = {
      .other = "that of the stiffest support", .low = 1e-6, NO_HIGH, .find = support_stiffness,
      .why = "a support without springs holds nothing"},
     {"tubes.supports.#.recoil.damping", "the decay time of the recoil", .unit = "s",
-     .other = "run.max_step", .low = 0.05, NO_HIGH, .find = recoil_time,
-     .of = "tubes.material.density", .why = "the slide does not move"},
+     .other = "run.max_step", .low = 0.05, NO_HIGH, .form = PLAUSIBLE_DECAY,
+     .b = "the whole mass of the tube", .of = "tubes.material.density",
+     .why = "the slide does not move"},
     {"tubes.supports.#.recoil.preload", "the preload of all slides", .unit = "N",
      .other = "the weight of tube and rocket towards the rear", .low = 1, NO_HIGH, .find = preload,
      .of = "tubes.material.density", .why = "the tube rests out of battery"},
@@ -396,26 +228,27 @@ const plausible_rule plausible_of_tube[] = {
      .low = 0.99, .high = 20, .find = outer_fibre,
      .why = "the corner lies farther out than the material on average"},
     {"tubes.pressure", "the greatest pressure", .unit = "Pa", NO_LOW, .high = 1e9,
-     .find = greatest_pressure, .why = "expected at most 10000 bar"},
+     .form = PLAUSIBLE_RATIO, .a = "the greatest force of the pressure",
+     .b = "the area of the bore", .why = "expected at most 10000 bar"},
     {"tubes.pressure", "its greatest force", .unit = "N", .other = "the weight towards the rear",
-     .low = 1, NO_HIGH, .find = pressure_by_weight, .why = "the rocket never leaves"},
+     .low = 1, NO_HIGH, .a = "the greatest force of the pressure", .when = "no motor",
+     .why = "the rocket never leaves"},
     {"tubes.pressure.volume", .unit = "m3", .other = "the volume of the bore before the rocket",
-     .low = 0.001, .high = 1000, .find = gas_volume,
-     .why = "a reservoir is about as large as what it fills"},
+     .low = 0.001, .high = 1000, .why = "a reservoir is about as large as what it fills"},
     {"tubes.pressure.exponent", .unit = "", .low = 1, .high = 1.7,
      .why = "isothermal gas has 1, adiabatic gas at most 1.67"},
     {"tubes.pressure.ambient", .unit = "Pa", .other = "the pressure of the gas at the exit", NO_LOW,
-     .high = 1, .find = expanded, .of = "tubes.pressure.exponent",
+     .high = 1, .of = "tubes.pressure.exponent",
      .why = "the net pressure falls below 0 before the exit"},
     {"tubes.pressure.scale", .unit = "", .low = 0.1, .high = 10,
      .why = "it is a correction of the pressure"},
     {"tubes.layout.pitch", .unit = "m", .other = "the bore's diameter", NO_LOW, .high = 20,
-     .find = pitch, .why = "tubes of one launcher lie side by side"},
+     .when = "several tubes", .why = "tubes of one launcher lie side by side"},
     {"tubes.layout.first", "the distance of tube 1 from the platform's origin", .unit = "m",
-     .other = "tubes.length", NO_LOW, .high = 5, .find = first_tube,
+     .other = "tubes.length", NO_LOW, .high = 5, .form = PLAUSIBLE_NORM,
      .why = "tubes lie on their platform"},
     {"tubes.guide.line", "its distance from the elastic axis", .unit = "m", .other = "tubes.length",
-     NO_LOW, .high = 0.2, .find = guide_line, .why = "the guide line runs along its beam"},
+     NO_LOW, .high = 0.2, .form = PLAUSIBLE_NORM, .why = "the guide line runs along its beam"},
     {"tubes.guide.t_slot.lips", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.2,
      .why = "a rail is long and narrow"},
     {"tubes.guide.t_slot.gap", .unit = "m", .other = "tubes.guide.t_slot.lips", NO_LOW, .high = 0.2,
@@ -427,19 +260,19 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.guide.tower.gap", .unit = "m", .other = "tubes.guide.tower.radius", NO_LOW, .high = 0.1,
      .why = "a gap is a small part of the width"},
     {"tubes.guide.surfaces.#.at", "its distance from the guide line", .unit = "m",
-     .other = "tubes.length", NO_LOW, .high = 0.2, .find = surface_place,
+     .other = "tubes.length", NO_LOW, .high = 0.2, .form = PLAUSIBLE_NORM,
      .why = "surfaces lie around the guide line"},
     {"tubes.guide.surfaces.#.gap", .unit = "m", NO_LOW, .high = 0.03,
      .why = "gaps are a few millimetres"},
-    {"rocket.adaptors.#.clearance", .unit = "m", NO_LOW, .high = 0.03, .find = shoe_clearance,
-     .why = "it is added to the gaps of this shoe"},
+    {"rocket.adaptors.#.clearance", .unit = "m", NO_LOW, .high = 0.03,
+     .when = "surfaces to slide on", .why = "it is added to the gaps of this shoe"},
     {"rocket.adaptors", "the angle that the widest gap leaves between the outer shoes",
      .unit = "rad", NO_LOW, .high = 5 * PI / 180, .find = play, .of = "tubes.guide",
      .why = "shoes so close give little guidance"},
-    {"tubes.slot.radius", .unit = "m", BORE, .low = 0.5, .high = 2, .find = slot_radius,
+    {"tubes.slot.radius", .unit = "m", BORE, .low = 0.5, .high = 2,
      .why = "the slot lies in the wall around the bore"},
     {"tubes.slot.angle", "its greatest angle", .unit = "rad", NO_LOW, .high = 45 * PI / 180,
-     .find = slot_angle, .why = "a steeper slot brakes and jams"},
+     .form = PLAUSIBLE_GREATEST, .column = 1, .why = "a steeper slot brakes and jams"},
     {"tubes.slot.friction", .unit = "", NO_LOW, .high = 1.5,
      .why = "dry metal on metal has below 1"},
     {0}};
