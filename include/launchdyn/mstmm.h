@@ -99,6 +99,7 @@ typedef struct ld_mstmm_element {
 ld_status ld_mstmm_create(const ld_mstmm_element *elements, int count, const double gravity[3],
                           ld_mstmm **out, ld_error *error);
 void ld_mstmm_free(ld_mstmm *system);
+
 /// One side of a joint that closes a loop.
 typedef struct ld_mstmm_end {
     const char *element; ///< NULL: the ground
@@ -157,9 +158,9 @@ typedef struct ld_mstmm_assembly {
 ld_status ld_mstmm_assemble(ld_mstmm *system, double *q, double *u, const int *kept,
                             ld_mstmm_assembly *report, ld_error *error);
 
-/// Takes the drift of a step out of q and then of u (either the closed one's, to rounding),
-/// weighted with the masses: momenta stay. LD_ERR_NUMERIC with the joint's name where it does not
-/// close. ld_mstmm_integrate does it after every step.
+/// Takes the drift of a step out of q and then out of u, to rounding, by the least changes weighted
+/// with the masses: momenta stay. LD_ERR_NUMERIC with the joint's name where it does not close.
+/// ld_mstmm_integrate does it after every step.
 ld_status ld_mstmm_project(ld_mstmm *system, double *q, double *u, ld_error *error);
 
 int ld_mstmm_loop_count(const ld_mstmm *system);
@@ -170,7 +171,7 @@ int ld_mstmm_find_loop(const ld_mstmm *system, const char *name);
 int ld_mstmm_loop_redundancy(const ld_mstmm *system, int loop);
 /// How far the pose of the last evaluation is from a singular one: the least independent
 /// constraint's part that no other one covers, squared sine, against general poses; and its joint
-/// (NULL: not asked for). 1 without loops. Below 1e-12 that constraint has no force.
+/// (NULL: not asked for). 1 without loops. Below 1e-20 that constraint has no force.
 double ld_mstmm_singularity(const ld_mstmm *system, int *loop);
 /// Force, then moment about the joint's point, of a joint on its second side in the last evaluation
 /// of accelerations, springs included, inertial axes. Redundant constraints carry nothing.
