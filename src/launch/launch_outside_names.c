@@ -6,6 +6,7 @@
 
 #include "launch/launch_outside.h"
 #include "launch/launch_run.h"
+#include "model/parts.h"
 
 // States that stand together: a name for each ('|' between them) behind the first part of it.
 typedef struct named_states {
@@ -54,15 +55,25 @@ static outside_quantity name_state(const named_states *group, int i)
 #define MARCHING_NAME(place, name, is)                                                             \
     [(int)POWER_COUNT + (int)ORIENTATING_POWERS + (place)] = {name, is},
 
+#define PART_NAME(place, name, is) [place] = {name, is},
+#define ROLLING_NAME(place, name, is) [(int)MECHANISM_POWERS + (place)] = {name, is},
+
 static outside_quantity name_work(const launcher_system *launcher, int i)
 {
-    static const struct {
+    typedef struct named_work {
         const char *name, *is;
-    } work[POWER_COUNT + VEHICLE_POWERS] = {LAUNCHING_WORKS(WORK_NAME) OPEN_AIR_WORKS(
-        WORK_NAME) PRESSURE_WORKS(WORK_NAME) RECOIL_WORKS(WORK_NAME) ORIENTATING_WORKS(BASE_NAME)
-                                                MARCHING_WORKS(MARCHING_NAME) JET_WORKS(BASE_NAME)};
+    } named_work;
+    static const named_work of_bodies[MULTIBODY_POWERS] = {MECHANISM_WORKS(PART_NAME)
+                                                               MARCHING_WORKS(ROLLING_NAME)};
+    static const named_work work[POWER_COUNT + VEHICLE_POWERS] = {
+        LAUNCHING_WORKS(WORK_NAME) OPEN_AIR_WORKS(WORK_NAME) PRESSURE_WORKS(WORK_NAME)
+            RECOIL_WORKS(WORK_NAME) ORIENTATING_WORKS(BASE_NAME) MARCHING_WORKS(MARCHING_NAME)
+                JET_WORKS(BASE_NAME)};
     int launching = launcher->launching.work_count;
     int place = i < launching ? i : POWER_COUNT + i - launching;
+    if (i >= launching && model_has_multibody(launcher->model))
+        return quantity_as("J", "W", of_bodies[i - launching].is, "work.%s",
+                           of_bodies[i - launching].name);
     return quantity_as("J", "W", work[place].is, "work.%s", work[place].name);
 }
 

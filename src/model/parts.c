@@ -102,6 +102,11 @@ bool model_has_vehicle(const ld_model *model)
     return model->base.kind == LD_BASE_VEHICLE;
 }
 
+bool model_has_multibody(const ld_model *model)
+{
+    return model->base.kind == LD_BASE_MULTIBODY;
+}
+
 bool model_has_surfaces(const ld_model *model)
 {
     return model_has_launcher(model) && model->tubes.guide.present;

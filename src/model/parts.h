@@ -33,6 +33,8 @@ bool model_base_is_told(const ld_model *model);
 void model_tell_base(ld_model *model);
 // Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
 bool model_has_vehicle(const ld_model *model);
+// Whether the base is one of bodies, joints and force elements.
+bool model_has_multibody(const ld_model *model);
 // Whether the rocket's shoes slide on surfaces, not in a bore.
 bool model_has_surfaces(const ld_model *model);
 // What guides the rocket, in a word.

@@ -33,6 +33,18 @@ typedef enum quantity_each {
     EACH_PARACHUTE,
     EACH_STATION, // of the tube, at which loads are asked for
     EACH_SUPPORT, // of the tube, where loads are asked for
+    // of a base of kind multibody: there is one, it has wheels; its parts
+    EACH_MULTIBODY,
+    EACH_ROLLING,
+    EACH_BODY,
+    EACH_BEAM,
+    EACH_TURN,   // joint that turns about one axis
+    EACH_SLIDER, // joint that slides along one
+    EACH_DRIVE,
+    EACH_STRUT,
+    EACH_FOOT,
+    EACH_BUSHING,
+    EACH_ROLLER, // its wheels
     EACH_COUNT
 } quantity_each;
 

@@ -165,7 +165,7 @@ static inline bool near_vertical(double pitch)
     return fabs(pitch) > 80 * 3.14159265358979323846 / 180;
 }
 
-enum { LD_MAX_WORKS = 24 };
+enum { LD_MAX_WORKS = 32 };
 
 /// Energy of tube, tail, supports and rocket at the end [J]; `residual` is what the balance misses.
 typedef struct ld_energy {

@@ -296,6 +296,9 @@ static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
+#define ROLLING(place, name, is) ORIENTATING(MECHANISM_POWERS + place, name, is)
+static const quantity multibody_works[] = {MECHANISM_WORKS(ORIENTATING)};
+static const quantity rolling_works[] = {MARCHING_WORKS(ROLLING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "residual of the energy balance", RUN(energy.residual)},
@@ -326,6 +329,8 @@ static const quantity_group run_groups[] = {
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, .launch = true, QUANTITY_ROWS(pressure_works)},
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, .launch = true, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
+    {.title = "works of a multibody base", .each = EACH_MULTIBODY, .launch = true, QUANTITY_ROWS(multibody_works)},
+    {.title = "works of its wheels", .each = EACH_ROLLING, .launch = true, QUANTITY_ROWS(rolling_works)},
     {.title = "work of jets", .each = EACH_JET, .launch = true, QUANTITY_ROWS(jet_works)},
     {.title = "balance", .launch = true, QUANTITY_ROWS(balance)},
 };

@@ -202,7 +202,8 @@ static ld_status take_start(ld_vehicle_run *self, launch_state *launch, double t
 
 static double mechanical_energy(const ld_vehicle_run *self, const double *y)
 {
-    return self->base.kind->dynamics->kinetic_energy(&self->base, y) + self->latest.out.elastic;
+    return self->base.kind->dynamics->kinetic_energy(&self->base, &self->latest.found, y) +
+           self->latest.out.elastic;
 }
 
 static ld_status begin(ld_vehicle_run *self, ld_error *error)
@@ -442,10 +443,11 @@ ld_status ld_vehicle_run_row(ld_vehicle_run *self, double *values, ld_error *err
     if (status)
         return status;
     const double *y = integrator_state(self->integrator), *work = y + self->work_at;
-    vehicle_moment now = {.t = integrator_time(self->integrator),
-                          .kinetic = self->base.kind->dynamics->kinetic_energy(&self->base, y),
-                          .elastic = self->latest.out.elastic,
-                          .tube_work = y[self->tube_work_at]};
+    vehicle_moment now = {
+        .t = integrator_time(self->integrator),
+        .kinetic = self->base.kind->dynamics->kinetic_energy(&self->base, &self->latest.found, y),
+        .elastic = self->latest.out.elastic,
+        .tube_work = y[self->tube_work_at]};
     base_find(&self->base, &self->latest.found, &self->latest.out, y, &now.of_base);
     now.residual = now.kinetic + now.elastic - self->energy_start - now.tube_work;
     for (int i = 0; i < self->base.work_count; i++) {

@@ -141,6 +141,8 @@ static bool has_value(const field_row *f, const void *base)
 {
     if (f->kind == FIELD_NUMBER)
         return !isnan(*(const double *)field_at_const(base, f));
+    if (f->kind == FIELD_WORD)
+        return f->required || *(const char *)field_at_const(base, f);
     if (f->kind == FIELD_WORDS)
         return *(const unsigned *)field_at_const(base, f) != 0;
     if (f->kind == FIELD_TEXT || f->kind == FIELD_FILE)
@@ -196,6 +198,20 @@ static void print_rows(FILE *stream, const field_row *f, const void *base)
     fputs("]", stream);
 }
 
+static void print_entry(FILE *stream, const field_block *block, const void *base);
+
+// A list on one line: "[{...}, {...}]".
+static void print_entries(FILE *stream, const field_row *f, const void *base)
+{
+    fputs("[", stream);
+    for (int i = 0; i < field_switch(base, f); i++) {
+        fputs(i ? ", {" : "{", stream);
+        print_entry(stream, f->block, field_entry_const(base, f, i));
+        fputs("}", stream);
+    }
+    fputs("]", stream);
+}
+
 // An entry of a list on one line, without the blocks that it does not have.
 static void print_entry(FILE *stream, const field_block *block, const void *base)
 {
@@ -210,6 +226,8 @@ static void print_entry(FILE *stream, const field_block *block, const void *base
             print_entry(stream, f->block, field_at_const(base, f));
         else if (f->kind == FIELD_TABLE)
             print_rows(stream, f, base);
+        else if (f->kind == FIELD_LIST)
+            print_entries(stream, f, base);
         else
             print_scalar(stream, f, base);
         fputs(inner ? "}" : "", stream);

@@ -251,7 +251,7 @@ static int residual(const problem *the, const double *y, double *r)
     input.held = true;
     const base_system *base = &launcher->base;
     if (base->kind->dynamics)
-        base->kind->dynamics->rest_of(y + launcher->base_at, &input.rest);
+        base->kind->dynamics->rest_of(base, y + launcher->base_at, &input.rest);
     if (the->dead) {
         dead_load(the, &input, &out.launching);
         if (launcher_evaluate_base(launcher, &input, the->phase, y, &out))
@@ -1010,7 +1010,7 @@ static ld_status keep_rest(launch_state *self, double t, const double *y, ld_err
     const double *base = y + launcher->base_at;
     launcher_input input;
     simulation_input(self, t, y, &input);
-    dynamics->rest_of(base, &self->rest);
+    dynamics->rest_of(&launcher->base, base, &self->rest);
     return dynamics->check_rest(&launcher->base, &input.found, base, error);
 }
 
@@ -1256,9 +1256,12 @@ static ld_status speeds_from_momentum(const launch_state *self, double t, const 
                                       double *y, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
-    double M[BASE_MOST_SPEEDS * BASE_MOST_SPEEDS], u[BASE_MOST_SPEEDS];
+    double u[BASE_MOST_SPEEDS];
     lapack_int pivot[BASE_MOST_SPEEDS];
     int n = self->launcher.base.speed_count;
+    double *M = malloc((size_t)(n * n) * sizeof *M);
+    if (!M)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's mass matrix");
     // columns of the mass matrix: momentum at unit speeds
     for (int j = 0; j < n; j++) {
         double moved[LD_MAX_STATES], unit[BASE_MOST_SPEEDS] = {0};
@@ -1268,7 +1271,9 @@ static ld_status speeds_from_momentum(const launch_state *self, double t, const 
         generalised_momentum(self, t, &phase, moved, M + n * j);
     }
     memcpy(u, p, sizeof u);
-    if (LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n))
+    bool singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n) != 0;
+    free(M);
+    if (singular)
         return ld_fail(error, LD_ERR_NUMERIC, "the base's mass matrix is singular");
     add_rigid_motion(self, t, u, y);
     return LD_OK;

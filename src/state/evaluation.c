@@ -161,4 +161,7 @@ void simulation_project(const launch_state *self, double t, double *y)
     launcher_input input;
     simulation_input(self, t, y, &input);
     launching_project(&self->launcher.launching, &input.launching, &self->phase, y);
+    const base_system *base = &self->launcher.base;
+    if (base->drifts)
+        base->kind->dynamics->project(base, t, y + self->launcher.base_at);
 }

@@ -237,6 +237,9 @@ static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
+#define ROLLING(place, name, is) ORIENTATING(MECHANISM_POWERS + place, name, is)
+static const quantity multibody_works[] = {MECHANISM_WORKS(ORIENTATING)};
+static const quantity rolling_works[] = {MARCHING_WORKS(ROLLING)};
 static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
 static const quantity balance[] = {
     {"energy.residual", "J", "residual of the energy balance", AT(energy.residual)},
@@ -272,6 +275,8 @@ static const quantity_group balances[] = {
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
+    {.title = "works of a multibody base", .each = EACH_MULTIBODY, QUANTITY_ROWS(multibody_works)},
+    {.title = "works of its wheels", .each = EACH_ROLLING, QUANTITY_ROWS(rolling_works)},
     {.title = "work of jets", .each = EACH_JET, QUANTITY_ROWS(jet_works)},
     {.title = "balance", QUANTITY_ROWS(balance)},
 };

@@ -61,6 +61,8 @@ void linear_displace(const launch_state *self, const linear_system *system, int 
         y[at->q_dot + unknown - half - 6] += change;
     else if (unknown < half + both)
         y[at->V + unknown - half - tube] += change;
+    else if (unknown < 2 * half && base->quicken)
+        base->quicken(&launcher->base, unknown - half - both, change, y + launcher->base_at);
     else if (unknown < 2 * half)
         y[base_speed_at(launcher, unknown - half - both)] += change;
     else
@@ -171,7 +173,7 @@ static int rates_of_whole(const launch_state *self, const linear_system *system,
         return -1;
     launcher_rates(launcher, y, &out, system->phase.rocket, y_dot);
     for (int i = 0; i < moving->displacement_count; i++)
-        held[i] = moving->kind->dynamics->held_by(&out.base, i);
+        held[i] = moving->kind->dynamics->held_by(moving, &out.base, i);
     return 0;
 }
 
@@ -345,7 +347,8 @@ static void add_name(const launch_state *self, int group, char shape[LD_SHAPE_TE
     size_t used = strlen(shape);
     snprintf(shape + used, LD_SHAPE_TEXT - used, "%s%s%s",
              group <= TWIST ? model_guide_word(self->model) : "", group <= TWIST ? ", " : "",
-             group < GROUPS ? group_names[group] : base->kind->dynamics->groups[group - GROUPS]);
+             group < GROUPS ? group_names[group]
+                            : base->kind->dynamics->group_name(base, group - GROUPS));
 }
 
 // Kinetic energy of tube and rocket in an eigenvector's speed number i, by group.
@@ -540,12 +543,16 @@ static ld_status undamped_modes(const launch_state *self, const linear_system *s
 {
     int n = system->half, shapes = 0, bad, equal;
     size_t square = (size_t)n * (size_t)n;
-    undamped shape[LD_MAX_STATES];
-    ld_mode some[LD_MAX_STATES];
+    undamped *shape = malloc((size_t)n * sizeof *shape);
+    ld_mode *some = malloc((size_t)n * sizeof *some);
     double *work = malloc(6 * square * sizeof *work);
     *count = 0;
-    if (!work)
+    if (!shape || !some || !work) {
+        free(shape);
+        free(some);
+        free(work);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    }
     bad = undamped_shapes(system, shape, &shapes, work);
     for (int i = 0; i < shapes && !bad; i += equal) {
         equal = 1;
@@ -555,6 +562,8 @@ static ld_status undamped_modes(const launch_state *self, const linear_system *s
         for (int k = 0; k < equal && !bad && *count < capacity; k++)
             modes[(*count)++] = some[k];
     }
+    free(shape);
+    free(some);
     free(work);
     return bad ? eigenvalues_failed(bad, error) : LD_OK;
 }
@@ -591,7 +600,7 @@ static const char *feeder_of(const launch_state *self, const linear_system *syst
             force[0] * real[first + i] + (imaginary ? force[1] * imaginary[first + i] : 0);
         if (power > most) {
             most = power;
-            feeder = self->launcher.base.kind->dynamics->holder_of(i);
+            feeder = self->launcher.base.kind->dynamics->holder_of(&self->launcher.base, i);
         }
     }
     return feeder;

@@ -695,7 +695,7 @@ static void say_energies(instant *at)
     if (run->rows == 0)
         run->energy = kinetic + potential + elastic;
     double balance = kinetic + potential + elastic - run->energy;
-    for (int i = 0; i < LAUNCHER_MOST_WORKS; i++) {
+    for (int i = 0; i < POWER_COUNT + VEHICLE_POWERS; i++) {
         char name[64];
         if (!has_work(run->model, i))
             continue;
@@ -715,7 +715,7 @@ static void say_works(instant *at, const double *power)
         heights(at, sum);
     if (run->rows == 0)
         memcpy(run->height, sum, sizeof sum);
-    for (int i = 0; i < LAUNCHER_MOST_WORKS; i++) {
+    for (int i = 0; i < POWER_COUNT + VEHICLE_POWERS; i++) {
         if (!has_work(run->model, i))
             continue;
         if (run->rows > 0)

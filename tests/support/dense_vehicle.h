@@ -2,13 +2,13 @@
 // together by two revolute hinges with Lagrange multipliers (five rows each), wheels as mass
 // points, all in one dense system; every force as model.md, sections 6 and 7, words it.
 //
-// States and rates have the layout of systems/bases/orientating.h and systems/bases/marching.h; no
-// code of theirs is used. Roads: flat, sines, bumps.
+// States and rates have the layout of systems/bases/orientating.h and systems/mechanism/marching.h;
+// no code of theirs is used. Roads: flat, sines, bumps.
 #ifndef LD_TESTS_SUPPORT_DENSE_VEHICLE_H
 #define LD_TESTS_SUPPORT_DENSE_VEHICLE_H
 
-#include "systems/bases/marching.h"
 #include "systems/bases/orientating.h"
+#include "systems/mechanism/marching.h"
 
 enum { DENSE_MARCHING_STATES = WHEEL_STATES * LD_MAX_WHEELS + 1 };
 

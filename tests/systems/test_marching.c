@@ -6,7 +6,7 @@
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"
-#include "systems/bases/marching.h"
+#include "systems/mechanism/marching.h"
 
 static const double PI = 3.141592653589793238462643383280, GRAVITY = 9.80665;
 

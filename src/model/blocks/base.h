@@ -4,6 +4,7 @@
 
 #include "model/blocks/fmu_base.h"
 #include "model/blocks/limits.h"
+#include "model/blocks/mechanism.h"
 #include "model/blocks/sea.h"
 #include "model/blocks/table.h"
 #include "model/blocks/vehicle.h"
@@ -27,7 +28,8 @@ typedef struct ld_sines {
     KIND(LD_BASE_PRESCRIBED, prescribed, 1)                                                        \
     KIND(LD_BASE_VEHICLE, vehicle, 2)                                                              \
     KIND(LD_BASE_EXTERNAL, external, 4)                                                            \
-    KIND(LD_BASE_FMU, fmu, 5)
+    KIND(LD_BASE_FMU, fmu, 5)                                                                      \
+    KIND(LD_BASE_MULTIBODY, multibody, 6)
 
 #define LD_BASE_KIND_NUMBER(name, word, number) name = (number),
 typedef enum ld_base_kind {
@@ -59,6 +61,7 @@ typedef struct ld_base {
     double at[3]; ///< [m] T's origin in the frame that moves so, or that an FMU tells (prescribed,
                   ///< fmu)
     ld_vehicle vehicle;
+    ld_mechanism mechanism;         ///< (multibody)
     ld_extrapolation extrapolation; ///< (external)
     ld_fmu_base fmu;
     ld_looks looks; ///< (not of a vehicle)

@@ -51,6 +51,7 @@ typedef struct ld_layout {
 
 typedef struct ld_tubes {
     ld_layout layout;
+    char on[LD_MAX_NAME]; ///< body that carries them (multibody)
     int empty_count;
     int empty[LD_MAX_TUBES]; ///< numbers of the tubes without a rocket from the start
     double length;           ///< [m]

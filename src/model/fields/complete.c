@@ -129,8 +129,26 @@ static void complete_run(ld_model *model)
     complete_number(&run->max_step, longest_step(run->tolerance), &model->completed.max_step);
 }
 
+// Joints with one axis by kind, and the stiffnesses of beams.
+static void complete_mechanism(ld_mechanism *mechanism)
+{
+    mechanism->turns.count = mechanism->slides.count = 0;
+    for (int i = 0; i < mechanism->joint_count; i++) {
+        const ld_joint *joint = &mechanism->joint[i];
+        ld_joint_names *names = joint->kind == LD_JOINT_REVOLUTE    ? &mechanism->turns
+                                : joint->kind == LD_JOINT_PRISMATIC ? &mechanism->slides
+                                                                    : NULL;
+        if (names)
+            memcpy(names->name[names->count++], joint->name, sizeof joint->name);
+    }
+    for (int i = 0; i < mechanism->beam_count; i++)
+        for (int k = 0; k < mechanism->beam[i].section_count; k++)
+            complete_section(&mechanism->beam[i].section[k], &mechanism->beam[i].material);
+}
+
 void model_complete(ld_model *model)
 {
+    complete_mechanism(&model->base.mechanism);
     ld_environment *environment = &model->environment;
     bool flat = environment->earth.kind == LD_EARTH_FLAT;
     complete_number(&environment->ground_height, flat ? 0 : environment->site.altitude,

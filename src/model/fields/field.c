@@ -191,6 +191,9 @@ bool field_same(const field_row *field, const void *a, const void *b)
     case FIELD_INTEGER:
     case FIELD_WORDS:
         return same_bytes(field, a, b, sizeof(int));
+    case FIELD_WORD:
+    case FIELD_QUANTITY:
+        return strcmp(field_at_const(a, field), field_at_const(b, field)) == 0;
     case FIELD_CHOICE:
         return same_bytes(field, a, b, sizeof(int)) &&
                (!field->unit || memcmp((const char *)a + field->other,

@@ -1,47 +1,7 @@
-#include "model/fields/field.h"
-#include "model/model.h"
+#include "model/fields/field_rows.h"
+#include "model/fields/tables_mechanism.h"
+#include "model/fields/tables_parts.h"
 
-// Kinds, with the member of the block's struct that holds the value.
-#define VECTOR(type, member, unit_, n)                                                             \
-    .kind = FIELD_NUMBER, .offset = offsetof(type, member), .count = (n), .unit = (unit_)
-#define NUMBER(type, member, unit_) VECTOR(type, member, unit_, 1)
-#define INTEGER(type, member, least_, most_)                                                       \
-    .kind = FIELD_INTEGER, .offset = offsetof(type, member), .range = {least_, most_, 0, 0}
-#define WORD(type, member) .kind = FIELD_WORD, .offset = offsetof(type, member)
-#define QUANTITY(type, member) .kind = FIELD_QUANTITY, .offset = offsetof(type, member)
-#define CHOICE(type, member, words_)                                                               \
-    .kind = FIELD_CHOICE, .offset = offsetof(type, member), .words = (words_)
-#define BLOCK(type, member, block_)                                                                \
-    .kind = FIELD_BLOCK, .offset = offsetof(type, member), .block = &(block_)
-#define SAME_STRUCT(block_) .kind = FIELD_BLOCK, .offset = 0, .block = &(block_)
-#define SWITCH(type, member, words_) .words = (words_), .other = offsetof(type, member)
-#define LIST(type, entries, counter, block_, least_, most_)                                        \
-    .kind = FIELD_LIST, .offset = offsetof(type, entries), .other = offsetof(type, counter),       \
-    .stride = sizeof(((type *)0)->entries[0]), .block = &(block_), .least = (least_),              \
-    .count = (most_)
-#define INTEGERS(type, entries, counter, least_, most_, count_)                                    \
-    .kind = FIELD_INTEGERS, .offset = offsetof(type, entries), .other = offsetof(type, counter),   \
-    .range = {least_, most_, 0, 0}, .count = (count_)
-#define SELECTION(type, entries, counter, entry, mark_)                                            \
-    .kind = FIELD_SELECTION, .offset = offsetof(type, entries), .other = offsetof(type, counter),  \
-    .stride = sizeof(entry), .mark = offsetof(entry, mark_)
-#define TABLE(type, member, format_)                                                               \
-    .kind = FIELD_TABLE, .offset = offsetof(type, member), .table = &(format_)
-
-// Ranges.
-#define ANY .range = {-INFINITY, INFINITY, 1, 1}
-#define POSITIVE .range = {0, INFINITY, 1, 1}
-#define NOT_NEGATIVE .range = {0, INFINITY, 0, 1}
-#define FROM_TO(low_, high_) .range = {low_, high_, 0, 0}
-#define ABOVE_TO(low_, high_) .range = {low_, high_, 1, 0}
-#define INSIDE(low_, high_) .range = {low_, high_, 1, 1}
-
-// Presence.
-#define REQUIRED .required = true, .initial = NAN
-#define DEFAULT(value) .initial = (value)
-#define NO_DEFAULT(text) .initial = NAN, .initial_doc = (text)
-
-#define FORM(form) (1u << (form))
 #define PI 3.14159265358979323846
 
 // ---- environment
@@ -477,6 +437,11 @@ static const field_word looks_words[] = {
 #define VEHICLE FORM(LD_BASE_VEHICLE)
 #define EXTERNAL FORM(LD_BASE_EXTERNAL)
 #define FMU FORM(LD_BASE_FMU)
+#define MULTIBODY FORM(LD_BASE_MULTIBODY)
+#define MOVED (FORM(LD_BASE_PRESCRIBED) | MULTIBODY)
+#define PARTS(part, block_, least, most, text)                                                     \
+    LIST(ld_base, mechanism.part, mechanism.part##_count, block_, least, most),                    \
+        .silent = true, .initial_doc = "none", .forms = MULTIBODY, .doc = text
 
 #define NAMES(member) .kind = FIELD_TEXT, .offset = offsetof(ld_base, fmu.connect.member)
 static const field_row connect_fields[] = {
@@ -512,29 +477,34 @@ static const field_word axes_words[] = {
 static const field_row base_fields[] = {
     {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "base of the tube"},
     {"azimuth", NUMBER(ld_base, azimuth, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
-     .forms = FIXED_OR_PRESCRIBED | FMU,
+     .forms = FIXED_OR_PRESCRIBED | FMU | MULTIBODY,
      .doc = "of the tube against the base, positive to the left"},
     {"elevation", NUMBER(ld_base, elevation, "rad"), FROM_TO(-PI / 2, PI / 2), DEFAULT(0),
-     .forms = FIXED_OR_PRESCRIBED | FMU, .doc = "of the tube against the base, positive up"},
-    {"velocity", VECTOR(ld_base, velocity, "m/s", 3), ANY, DEFAULT(0),
-     .forms = FORM(LD_BASE_PRESCRIBED), .doc = "constant velocity along I, added to the sines"},
-    {"motion", SAME_STRUCT(motion_block), .forms = FORM(LD_BASE_PRESCRIBED), .initial_doc = "none",
+     .forms = FIXED_OR_PRESCRIBED | FMU | MULTIBODY,
+     .doc = "of the tube against the base, positive up"},
+    {"velocity", VECTOR(ld_base, velocity, "m/s", 3), ANY, DEFAULT(0), .forms = MOVED,
+     .doc = "constant velocity along I, added to the sines"},
+    {"motion", SAME_STRUCT(motion_block), .forms = MOVED, .initial_doc = "none",
      .doc = "position and orientation Ry(yaw) Rz(pitch) Rx(roll) over time"},
-    {"sea", BLOCK(ld_base, sea, sea_block), .forms = FORM(LD_BASE_PRESCRIBED),
-     .initial_doc = "none", SWITCH(ld_base, sea.present, sea_words), .other_is_bool = true,
+    {"sea", BLOCK(ld_base, sea, sea_block), .forms = MOVED, .initial_doc = "none",
+     SWITCH(ld_base, sea.present, sea_words), .other_is_bool = true,
      .doc = "waves on deep water and the ship's response, added to velocity and sines"},
-    {"speed", NUMBER(ld_base, vehicle.speed, "m/s"), FROM_TO(0, 1000), REQUIRED, .forms = VEHICLE,
+    {"speed", NUMBER(ld_base, vehicle.speed, "m/s"), FROM_TO(0, 1000), REQUIRED,
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY,
      .doc = "marching speed, kept by the drive; 0: parked"},
-    {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true, .forms = VEHICLE,
+    {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true,
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY,
      .doc = "height over x of I: flat, or the sum of what is given"},
     {"wheels", LIST(ld_base, vehicle.wheel, vehicle.wheel_count, wheel_block, 3, LD_MAX_WHEELS),
-     .required = true, .forms = VEHICLE, .doc = "masses on suspensions and tyres, all alike"},
-    {"drive", SAME_STRUCT(drive_block), .required = true, .forms = VEHICLE,
-     .doc = "force that keeps the speed, equal on all driven wheels"},
+     .required = true, .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY,
+     .doc = "masses on suspensions and tyres, all alike"},
+    {"drive", SAME_STRUCT(drive_block), .required = true, .forms = VEHICLE | MULTIBODY,
+     .optional = MULTIBODY, .doc = "force that keeps the speed, equal on all driven wheels"},
     {"suspension", BLOCK(ld_base, vehicle.suspension, suspension_block), .required = true,
-     .forms = VEHICLE, .doc = "spring-damper between chassis and each wheel"},
-    {"tyre", BLOCK(ld_base, vehicle.tyre, tyre_block), .required = true, .forms = VEHICLE,
-     .doc = "between each wheel and the road"},
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY,
+     .doc = "spring-damper between chassis and each wheel"},
+    {"tyre", BLOCK(ld_base, vehicle.tyre, tyre_block), .required = true,
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, .doc = "between each wheel and the road"},
     {"extrapolation", CHOICE(ld_base, extrapolation, extrapolation_words),
      DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
      .doc =
@@ -565,6 +535,20 @@ static const field_row base_fields[] = {
      .forms = FMU, .doc = "of the FMU's clock at the run's start (with lead_in)"},
     {"time_limit", NUMBER(ld_base, fmu.time_limit, "s"), ABOVE_TO(0, 1e5), DEFAULT(60),
      .forms = FMU, .doc = "longest duration of one call"},
+    {"bodies", PARTS(body, body_block, 0, LD_MAX_BODIES, "rigid bodies")},
+    {"beams", PARTS(beam, beam_block, 0, LD_MAX_BEAMS, "flexible beams")},
+    {"joints", PARTS(joint, joint_block, 1, LD_MAX_JOINTS,
+                     "what carries each body and beam, and what closes loops")},
+    {"bushings", PARTS(bushing, bushing_block, 0, LD_MAX_BUSHINGS,
+                       "springs and dampers in all six directions between two bodies")},
+    {"struts", PARTS(strut, strut_block, 0, LD_MAX_STRUTS,
+                     "springs, dampers and actuators between two points")},
+    {"drives", PARTS(drive, joint_drive_block, 0, LD_MAX_DRIVES, "stabilisers on joints")},
+    {"feet", PARTS(foot, foot_block, 0, LD_MAX_FEET, "jacks on the ground")},
+    {"loads", PARTS(load, load_block, 0, LD_MAX_LOADS, "forces and moments over time")},
+    {"drag", PARTS(drag, drag_block, 0, LD_MAX_DRAGS, "of the wind on bodies")},
+    {"wheels_on", WORD(ld_base, mechanism.wheels_on), .forms = MULTIBODY, .initial_doc = "none",
+     .doc = "body that the wheels carry, in whose axes they are mounted"},
     {"looks", CHOICE(ld_base, looks, looks_words), DEFAULT(LD_LOOKS_PLAIN),
      .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU, .doc = "appearance in the replay"},
     {0}};
@@ -582,88 +566,6 @@ static const field_row chassis_fields[] = {
      .doc = "about its mass centre, the origin of chassis axes"},
     {0}};
 static const field_block chassis_block = {.fields = chassis_fields};
-
-static const field_row command_columns[] = {
-    {"t", .unit = "s", ANY},
-    {"angle", .unit = "rad", FROM_TO(-200 * PI, 200 * PI)},
-};
-static const table_format command_table = {TABLE_CONSTANT | TABLE_CSV, 2, command_columns, NULL};
-#define UNLESS_LOCKED NO_DEFAULT("required without lock")
-static const field_row cascade_fields[] = {
-    {"kp", NUMBER(ld_cascade, kp, "1/s"), POSITIVE, REQUIRED,
-     .doc = "gain of the angle loop: commanded rate over error"},
-    {"rate_kp", NUMBER(ld_cascade, rate_kp, "N.m.s/rad"), POSITIVE, REQUIRED,
-     .doc = "gain of the rate loop"},
-    {"rate_ki", NUMBER(ld_cascade, rate_ki, "N.m/rad"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "gain on the integral of the rate error, limited to the torque limit"},
-    {0}};
-static const field_block cascade_block = {.fields = cascade_fields};
-static const field_word cascade_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
-
-static const field_row noise_fields[] = {
-    {"angle", NUMBER(ld_sensor_noise, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "rms of the measured angle"},
-    {"rate", NUMBER(ld_sensor_noise, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
-     .doc = "rms of the measured rate"},
-    {"seed", INTEGER(ld_sensor_noise, seed, 0, 999999999), DEFAULT(1), .doc = "of the noise"},
-    {0}};
-static const field_block noise_block = {.fields = noise_fields};
-static const field_row resolution_fields[] = {
-    {"angle", NUMBER(ld_resolution, angle, "rad"), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "step of the measured angle; 0: none"},
-    {"rate", NUMBER(ld_resolution, rate, "rad/s"), FROM_TO(0, 100), DEFAULT(0),
-     .doc = "step of the measured rate; 0: none"},
-    {0}};
-static const field_block resolution_block = {.fields = resolution_fields};
-
-static const field_row gear_fields[] = {
-    {"stiffness", NUMBER(ld_gear, stiffness, "N.m/rad"), POSITIVE, REQUIRED,
-     .doc = "of the drive, seen from the hinge"},
-    {"damping", NUMBER(ld_gear, damping, "N.m.s/rad"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "parallel to that stiffness"},
-    {"inertia", NUMBER(ld_gear, inertia, "kg.m2"), POSITIVE, REQUIRED,
-     .doc = "of the motor, times the square of the gear ratio"},
-    {"backlash", NUMBER(ld_gear, backlash, "rad"), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "free travel between the flanks"},
-    {0}};
-static const field_block gear_block = {.fields = gear_fields};
-static const field_word gear_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
-
-#define UNLESS_CASCADE NO_DEFAULT("required without lock and cascade")
-static const field_row stabiliser_fields[] = {
-    {"command", TABLE(ld_stabiliser, command, command_table), .required = true,
-     .doc = "yaw (azimuth) or pitch (elevation) of the elevation platform's x axis in I, constant "
-            "or over time (linear, constant outside)"},
-    {"kp", NUMBER(ld_stabiliser, kp, "N.m/rad"), NOT_NEGATIVE, UNLESS_CASCADE,
-     .doc = "gain on the error"},
-    {"ki", NUMBER(ld_stabiliser, ki, "N.m/rad/s"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "gain on its integral, limited to the torque limit"},
-    {"kd", NUMBER(ld_stabiliser, kd, "N.m.s/rad"), NOT_NEGATIVE, UNLESS_CASCADE,
-     .doc = "gain on its rate"},
-    {"torque_limit", NUMBER(ld_stabiliser, torque_limit, "N.m"), POSITIVE, UNLESS_LOCKED,
-     .doc = "greatest torque"},
-    {"feedforward", NUMBER(ld_stabiliser, feedforward, ""), FROM_TO(0, 1), DEFAULT(0),
-     .doc = "share of the chassis' rate about the hinge that the command compensates"},
-    {"cascade", BLOCK(ld_stabiliser, cascade, cascade_block), .initial_doc = "none",
-     SWITCH(ld_stabiliser, cascade.present, cascade_words), .other_is_bool = true,
-     .doc = "two loops in place of kp, ki, kd: the angle loop commands a rate to the rate loop"},
-    {"bandwidth", NUMBER(ld_stabiliser, bandwidth, "Hz"), FROM_TO(0, 10000), DEFAULT(0),
-     .doc = "of the actuator, a first-order lag of the torque; 0: no lag"},
-    {"slew", NUMBER(ld_stabiliser, slew, "N.m/s"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "greatest rate of the torque, requires bandwidth; 0: no limit"},
-    {"sample", NUMBER(ld_stabiliser, sample, "s"), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "period of a digital loop that holds its torque; 0: continuous"},
-    {"delay", NUMBER(ld_stabiliser, delay, "s"), FROM_TO(0, 10), DEFAULT(0),
-     .doc = "from a sample to its torque, at most the period"},
-    {"sensor_noise", BLOCK(ld_stabiliser, noise, noise_block), .initial_doc = "none",
-     .doc = "white noise of the sensors, one value a sample"},
-    {"sensor_resolution", BLOCK(ld_stabiliser, resolution, resolution_block), .initial_doc = "none",
-     .doc = "rounding of the sensors"},
-    {"gear", BLOCK(ld_stabiliser, gear, gear_block), .initial_doc = "none",
-     SWITCH(ld_stabiliser, gear.present, gear_words), .other_is_bool = true,
-     .doc = "between actuator and hinge"},
-    {0}};
-static const field_block stabiliser_block = {.fields = stabiliser_fields};
 
 static const field_row friction_fields[] = {
     {"viscous", NUMBER(ld_hinge_friction, viscous, "N.m.s/rad"), NOT_NEGATIVE, DEFAULT(0),
@@ -735,70 +637,12 @@ static const field_row layout_fields[] = {
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
-static const field_word section_forms[] = {
-    {"a section given by radii", LD_SECTION_ANNULUS},
-    {"a section given by its area", LD_SECTION_AREA},
-    {"a section given by stiffnesses", LD_SECTION_STIFFNESS},
-    {"a section given by stiffnesses of each plane", LD_SECTION_PLANES},
-    {NULL, 0}};
-#define STIFFNESS FORM(LD_SECTION_STIFFNESS)
-#define PLANES FORM(LD_SECTION_PLANES)
-#define ANNULUS FORM(LD_SECTION_ANNULUS)
-#define AREA FORM(LD_SECTION_AREA)
-static const field_row section_fields[] = {
-    {"from", NUMBER(ld_section, from, "m"), FROM_TO(0, 100), REQUIRED,
-     .doc = "station of its begin; up to the next section or the end"},
-    {"inner_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
-     .forms = ANNULUS, .doc = "radius of the bore"},
-    {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
-     .forms = ANNULUS, .doc = "outer radius"},
-    {"bore_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10),
-     NO_DEFAULT("required by a bore"), .forms = AREA | STIFFNESS | PLANES,
-     .doc = "radius of the bore"},
-    {"mass_per_length", NUMBER(ld_section, mass_per_length, "kg/m"), POSITIVE, REQUIRED,
-     .forms = AREA | STIFFNESS | PLANES, .doc = "mass per length"},
-    {"area", NUMBER(ld_section, area, "m2"), POSITIVE, REQUIRED, .forms = AREA,
-     .doc = "area A of the wall"},
-    {"second_moment", NUMBER(ld_section, second_moment, "m4"), POSITIVE, REQUIRED, .forms = AREA,
-     .doc = "second moment of area I, the same in both planes"},
-    {"torsion_constant", NUMBER(ld_section, torsion_constant, "m4"), POSITIVE, REQUIRED,
-     .forms = AREA, .doc = "Saint-Venant torsion constant"},
-    {"axial_stiffness", NUMBER(ld_section, axial_stiffness, "N"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS | PLANES, .doc = "E A"},
-    {"bending_stiffness", NUMBER(ld_section, bending_stiffness, "N.m2"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS, .doc = "E I, the same in both planes"},
-    {"bending_stiffness_y", NUMBER(ld_section, bending_stiffness_y, "N.m2"), POSITIVE, REQUIRED,
-     .forms = PLANES, .doc = "E I about y, against deflection along z"},
-    {"bending_stiffness_z", NUMBER(ld_section, bending_stiffness_z, "N.m2"), POSITIVE, REQUIRED,
-     .forms = PLANES, .doc = "E I about z, against deflection along y"},
-    {"torsion_stiffness", NUMBER(ld_section, torsion_stiffness, "N.m2"), POSITIVE, REQUIRED,
-     .forms = STIFFNESS | PLANES, .doc = "G times the torsion constant"},
-    {"polar_inertia", NUMBER(ld_section, polar_inertia, "kg.m"), POSITIVE, REQUIRED,
-     .forms = AREA | STIFFNESS | PLANES, .doc = "polar moment of inertia per length"},
-    {0}};
-static const field_block section_block = {.fields = section_fields,
-                                          .form = section_forms,
-                                          .form_offset = offsetof(ld_section, form),
-                                          .form_from_keys = true};
-
 static const field_row point_mass_fields[] = {
     {"at", NUMBER(ld_point_mass, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
     {"mass", NUMBER(ld_point_mass, mass, "kg"), NOT_NEGATIVE, REQUIRED,
      .doc = "on the axis, without rotary inertia"},
     {0}};
 static const field_block point_mass_block = {.fields = point_mass_fields};
-
-static const field_row material_fields[] = {
-    {"youngs_modulus", NUMBER(ld_material, youngs_modulus, "Pa"), FROM_TO(1e3, 1e15),
-     NO_DEFAULT("required without section stiffnesses"), .doc = "E"},
-    {"poisson_ratio", NUMBER(ld_material, poisson_ratio, ""), INSIDE(-1, 0.5),
-     NO_DEFAULT("this or shear_modulus"), .doc = "nu, for G = E/(2 (1 + nu))"},
-    {"shear_modulus", NUMBER(ld_material, shear_modulus, "Pa"), FROM_TO(1e3, 1e15),
-     NO_DEFAULT("this or poisson_ratio"), .doc = "G"},
-    {"density", NUMBER(ld_material, density, "kg/m3"), FROM_TO(1e-3, 1e6),
-     NO_DEFAULT("required by sections given by radii"), .doc = "density"},
-    {0}};
-static const field_block material_block = {.fields = material_fields};
 
 static const field_word span_words[] = {{"supported", LD_SPAN_SUPPORTED},
                                         {"clamped", LD_SPAN_CLAMPED},
@@ -994,6 +838,8 @@ static const field_block guide_block = {.fields = guide_fields,
                                         .form_from_keys = true};
 
 static const field_row tubes_fields[] = {
+    {"on", WORD(ld_tubes, on), .initial_doc = "none",
+     .doc = "body or beam of a base of kind multibody that carries them"},
     {"layout", BLOCK(ld_tubes, layout, layout_block), .initial_doc = "one tube",
      .doc = "where the tubes are"},
     {"empty", INTEGERS(ld_tubes, empty, empty_count, 1, 10000, LD_MAX_TUBES), .initial_doc = "none",

@@ -196,9 +196,10 @@ static void clamped_rule(const rule_set *rules, int i)
     if (isnan(support->stiffness[0]) && !support->clamped)
         broken(rules, "tubes.supports.#.stiffness", i + 1,
                "missing; expected three numbers and one unit of N/m, >= 0 N/m");
-    if (support->clamped && model_has_vehicle(rules->model))
-        broken(rules, "tubes.supports.#.clamped", i + 1,
-               "requires a base other than a vehicle; on a vehicle use stiff springs");
+    if (support->clamped && (model_has_vehicle(rules->model) || model_has_multibody(rules->model)))
+        broken(
+            rules, "tubes.supports.#.clamped", i + 1,
+            "requires a base whose motion is given; on a vehicle or on bodies use stiff springs");
     if (support->clamped && rules->model->run.formulation == LD_FORMULATION_OVERALL)
         broken(rules, "tubes.supports.#.clamped", i + 1,
                "requires run.formulation: reduced; the overall form has springs only");
@@ -646,6 +647,7 @@ static void launch_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     base_rules(rules);
     vehicle_rules(rules);
+    mechanism_rules(rules);
     layout_rules(rules);
     section_rules(rules);
     derived_rules(rules);

@@ -10,6 +10,8 @@ void guide_rules(const rule_set *rules);
 void aerodynamics_rules(const rule_set *rules);
 // Rules of a base whose motion is given.
 void base_rules(const rule_set *rules);
+// Rules of a base of bodies, joints and force elements.
+void mechanism_rules(const rule_set *rules);
 // Rules of a vehicle and its platforms.
 void vehicle_rules(const rule_set *rules);
 

@@ -227,11 +227,14 @@ void vehicle_rules(const rule_set *rules)
 {
     const ld_platform *platform = &rules->model->platform;
     jet_rules(rules, &platform->jet);
-    if (!model_has_vehicle(rules->model))
+    bool wheels = model_has_multibody(rules->model) && rules->model->base.vehicle.wheel_count > 0;
+    if (!model_has_vehicle(rules->model) && !wheels)
         return;
     road_rules(rules);
     wheel_rules(rules);
     suspension_rules(rules);
+    if (wheels)
+        return;
     inertia_rule(rules, "platform.chassis.inertia", platform->chassis_inertia, NULL);
     turret_rules(rules, "azimuth", &platform->azimuth, false);
     turret_rules(rules, "elevation", &platform->elevation, true);

@@ -40,15 +40,15 @@ static integrator_method choose_method(const launch_state *launch)
                                                                : INTEGRATOR_CASH_KARP;
 }
 
-// Whether the end of each step is put back onto the constraints: with what they hold in places, and
-// where a lock holds for long on a base that is moved. Its speed, that of a ship, has the error of
-// the steps, by which the rocket would drift along the tube: 2 mm in 100 s at 6 m/s.
+// Whether the end of each step is put back onto the constraints: with loops, what they hold in
+// places, where a lock holds for long on a base that is moved. Its speed, that of a ship, has the
+// error of the steps, by which the rocket would drift along the tube: 2 mm in 100 s at 6 m/s.
 static bool puts_back(const launch_state *launch)
 {
     const double long_lead_in = 10; // [s]
     const base_system *base = &launch->launcher.base;
     bool moved = !base->kind->dynamics && !base->kind->stepping && !base->kind->tell;
-    return launching_holds_places(&launch->launcher.launching) ||
+    return base->drifts || launching_holds_places(&launch->launcher.launching) ||
            (moved && model_run(launch->model)->lead_in > long_lead_in);
 }
 

@@ -102,7 +102,7 @@ bool propagator_project(propagator *object, double *y)
     const outside_point *now = &self->now;
     tolerances all;
     memcpy(y, now->y, (size_t)self->states * sizeof *y);
-    if (!launching_holds_places(&launch->launcher.launching))
+    if (!launch->launcher.base.drifts && !launching_holds_places(&launch->launcher.launching))
         return false;
     simulation_project(launch, now->t, y);
     tolerances_find(launch, &all);

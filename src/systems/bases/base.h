@@ -13,15 +13,20 @@
 #include "model/blocks/base.h"
 #include "model/quantity.h"
 #include "systems/bases/vehicle.h"
+#include "systems/mechanism/mechanism.h"
+
+// The works of a base of kind multibody: those of its mechanism, then those of its wheels.
+enum { MULTIBODY_POWERS = MECHANISM_POWERS + MARCHING_POWERS };
 
 enum {
-    BASE_MOST_STATES = ORIENTATING_MOST_STATES + WHEEL_STATES * LD_MAX_WHEELS + 1,
-    BASE_MOST_WORKS = VEHICLE_POWERS,
-    BASE_MOST_EVENTS = LD_MAX_WHEELS,
-    BASE_MOST_SPEEDS = ORIENTATING_SPEEDS,
-    BASE_MOST_FREEDOMS = 3 + 2 * HINGES + 3 * LD_MAX_WHEELS,
-    BASE_GROUPS = 11, // of what moves in a natural mode
+    BASE_MOST_STATES = MECHANISM_MOST_STATES,
+    BASE_MOST_WORKS = MULTIBODY_POWERS,
+    BASE_MOST_EVENTS = LD_MAX_WHEELS + LD_MAX_FEET,
+    BASE_MOST_SPEEDS = MECHANISM_MOST_SPEEDS,
+    BASE_MOST_FREEDOMS = MECHANISM_MOST_SPEEDS + MECHANISM_MOST_HOLDS + 3 * LD_MAX_WHEELS,
+    BASE_GROUPS = LD_MAX_BODIES + LD_MAX_BEAMS + 3, // of what moves in a natural mode
 };
+_Static_assert((int)VEHICLE_POWERS <= (int)MULTIBODY_POWERS, "works of a vehicle");
 
 typedef struct base_interface base_interface;
 
@@ -51,18 +56,27 @@ typedef struct base_system {
     int state_count, work_count, event_count;
     int speed_at, speed_count; // in the state: generalised speeds of what carries the tube
     int freedom_count;         // unknowns of its equilibrium
+    bool drifts;               // errors of the steps open its loops: dynamics->project
     int displacement_count, extra_count; // unknowns of its linearised equations
 } base_system;
 
 // What a kind finds when it places the tube, and wants again in the same evaluation.
 typedef union base_found {
     orientating_motion vehicle;
+    mechanism_motion multibody;
     base_frame fmu; // that it tells
 } base_found;
+
+// What a mechanism and its wheels tell.
+typedef struct multibody_report {
+    mechanism_output mechanism;
+    marching_output marching;
+} multibody_report;
 
 // What a kind tells besides rates and works.
 typedef union base_report {
     vehicle_report vehicle;
+    multibody_report multibody;
 } base_report;
 
 // Of a base that an FMU moves.
@@ -70,9 +84,34 @@ typedef struct fmu_instant {
     double work; // [J] that the wrench did on it
 } fmu_instant;
 
+// A body as its columns have it.
+typedef struct body_instant {
+    double r[3], angles[3], v[3], w[3];
+} body_instant;
+
+// What the quantities of a mechanism are about.
+typedef struct multibody_instant {
+    body_instant body[LD_MAX_BODIES], beam[LD_MAX_BEAMS];
+    struct {
+        double position, rate, friction;
+    } turn[LD_MAX_JOINTS], slide[LD_MAX_JOINTS];
+    hinge_report drive[LD_MAX_DRIVES];
+    struct {
+        strut_report spring;
+        double push; // [N] of its actuator
+    } strut[LD_MAX_STRUTS];
+    foot_report foot[LD_MAX_FEET];
+    v3 bushing[LD_MAX_BUSHINGS];
+    struct {
+        double r[3];
+    } wheel[LD_MAX_WHEELS];
+    marching_output marching;
+} multibody_instant;
+
 // What its quantities stand in.
 typedef union base_instant {
     vehicle_instant vehicle;
+    multibody_instant multibody;
     fmu_instant fmu;
 } base_instant;
 
@@ -83,8 +122,9 @@ typedef struct base_wrench {
 
 // What keeps what it was in the equilibrium.
 typedef union base_rest {
-    double number[2 * HINGES]; // all of them
+    double number[2 * MECHANISM_MOST_HOLDS]; // all of them
     hinge_rest hinge[HINGES];
+    hold_rest hold[MECHANISM_MOST_HOLDS];
 } base_rest;
 
 // What acts on a base.
@@ -109,11 +149,15 @@ typedef struct base_dynamics {
     // Rates and what else is told. Other than 0: singular or not finite.
     int (*evaluate)(const base_system *self, const base_found *found, const base_load *load,
                     const double *state, base_output *output);
-    double (*kinetic_energy)(const base_system *self, const double *state); // [J]
+    // [J], as found at that state
+    double (*kinetic_energy)(const base_system *self, const base_found *found, const double *state);
     // Absolute tolerances of the states under the run's; where there is no relative one.
     void (*tolerances)(const base_system *self, double tolerance, double *atol, bool *absolute);
     // Gives it the velocity with which it starts.
     void (*set_off)(const base_system *self, double *state);
+
+    // Puts a state that drifts back to where its loops close.
+    void (*project)(const base_system *self, double t, double *state);
 
     // Its part that a state belongs to: 0 is what carries the tube, others touch only that.
     int (*part_of)(const base_system *self, int state);
@@ -122,7 +166,7 @@ typedef struct base_dynamics {
     // vanish; what an equilibrium must fulfil for a run to begin in it; what is kept of it.
     void (*guess)(const base_system *self, double tube, double rocket, double *state);
     void (*displace)(const base_system *self, int freedom, double change, double *state);
-    void (*rest_of)(const double *state, base_rest *rest);
+    void (*rest_of)(const base_system *self, const double *state, base_rest *rest);
     void (*residual)(const base_system *self, const base_output *output, double *r);
     ld_status (*check_rest)(const base_system *self, const base_found *found, const double *state,
                             ld_error *error);
@@ -134,12 +178,14 @@ typedef struct base_dynamics {
     void (*displace_slightly)(const base_system *self, int displacement, double change,
                               double *state);
     int (*speed_of)(const base_system *self, int displacement);
+    // Adds to the speed of a displacement, where others follow it; NULL: none does.
+    void (*quicken)(const base_system *self, int displacement, double change, double *state);
     int (*extra_of)(const base_system *self, int extra);
     double (*inertia_of)(const base_system *self, int displacement, int *group);
-    const char *const *groups; // their names, ended by NULL
+    const char *(*group_name)(const base_system *self, int group);
     // What holds a displacement still: its key (NULL: nothing does) and what it does, [N], [N m].
-    const char *(*holder_of)(int displacement);
-    double (*held_by)(const base_output *output, int displacement);
+    const char *(*holder_of)(const base_system *self, int displacement);
+    double (*held_by)(const base_system *self, const base_output *output, int displacement);
 } base_dynamics;
 
 // Bases whose motion is found outside of the equations, from one instant to the next and no

@@ -226,8 +226,9 @@ static int evaluate(const base_system *self, const base_found *found, const base
     return outcome;
 }
 
-static double kinetic_energy(const base_system *self, const double *state)
+static double kinetic_energy(const base_system *self, const base_found *found, const double *state)
 {
+    (void)found;
     return orientating_kinetic_energy(orientating_of(self), state) +
            marching_kinetic_energy(marching_of(self), state + marching_at(self));
 }
@@ -329,8 +330,9 @@ static void displace(const base_system *self, int freedom, double change, double
 }
 
 // Locked hinges keep their equilibrium; the others begin with the integral that holds it.
-static void rest_of(const double *state, base_rest *rest)
+static void rest_of(const base_system *self, const double *state, base_rest *rest)
 {
+    (void)self;
     for (int i = 0; i < HINGES; i++)
         rest->hinge[i] =
             (hinge_rest){.angle = state[ORIENTATING_ANGLE + i], .torque = state[ORIENTATING_Z + i]};
@@ -409,7 +411,7 @@ enum {
 };
 _Static_assert((int)GROUPS <= (int)BASE_GROUPS, "more groups than a base is allowed");
 
-static const char *const groups[GROUPS + 1] = {
+static const char *const groups[GROUPS] = {
     [SURGE] = "chassis, surge",
     [HEAVE] = "chassis, heave",
     [SWAY] = "chassis, sway",
@@ -466,16 +468,29 @@ static int extra_of(const base_system *self, int extra)
     return ORIENTATING_DRIVE + k - 2 * wheels - 1;
 }
 
-static const char *holder_of(int displacement)
+static const char *group_name(const base_system *self, int group)
+{
+    (void)self;
+    return groups[group];
+}
+
+static const char *key_of(int displacement)
 {
     return displacement == 6   ? "platform.azimuth.stabiliser"
            : displacement == 7 ? "platform.elevation.stabiliser"
                                : NULL;
 }
 
-static double held_by(const base_output *output, int displacement)
+static const char *holder_of(const base_system *self, int displacement)
 {
-    return holder_of(displacement) ? output->report.vehicle.hinge[displacement - 6].torque : 0;
+    (void)self;
+    return key_of(displacement);
+}
+
+static double held_by(const base_system *self, const base_output *output, int displacement)
+{
+    (void)self;
+    return key_of(displacement) ? output->report.vehicle.hinge[displacement - 6].torque : 0;
 }
 
 static double inertia_of(const base_system *self, int displacement, int *group)
@@ -511,7 +526,7 @@ static const base_dynamics dynamics = {
     .speed_of = speed_of,
     .extra_of = extra_of,
     .inertia_of = inertia_of,
-    .groups = groups,
+    .group_name = group_name,
     .holder_of = holder_of,
     .held_by = held_by,
 };

@@ -15,7 +15,7 @@
 #include "launchdyn/mstmm.h"
 #include "model/blocks/run.h"
 #include "model/blocks/tubes.h"
-#include "systems/bases/stabiliser.h"
+#include "systems/mechanism/stabiliser.h"
 
 enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };
 

@@ -4,8 +4,8 @@
 #ifndef LD_SYSTEMS_VEHICLE_H
 #define LD_SYSTEMS_VEHICLE_H
 
-#include "systems/bases/marching.h"
 #include "systems/bases/orientating.h"
+#include "systems/mechanism/marching.h"
 
 // The work of the jets, where the platform feels any.
 #define JET_WORKS(X) X(VEHICLE_JET, "jet", "work of the jets of rockets that have left")

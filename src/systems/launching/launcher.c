@@ -113,7 +113,8 @@ double launcher_kinetic_energy(const launcher_system *self, const launcher_input
 {
     double energy = launching_kinetic_energy(&self->launching, &input->launching, phase, state);
     if (self->base.kind->dynamics)
-        energy += self->base.kind->dynamics->kinetic_energy(&self->base, state + self->base_at);
+        energy += self->base.kind->dynamics->kinetic_energy(&self->base, &input->found,
+                                                            state + self->base_at);
     return energy;
 }
 

@@ -1,4 +1,4 @@
-#include "systems/bases/marching.h"
+#include "systems/mechanism/marching.h"
 
 // What all wheels share at one instant. e_f = (x, 0, z) is the chassis' x axis made horizontal,
 // e_s = (-z, 0, x).

@@ -1,4 +1,4 @@
-#include "systems/bases/stabiliser.h"
+#include "systems/mechanism/stabiliser.h"
 
 #include <math.h>
 

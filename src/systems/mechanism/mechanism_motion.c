@@ -1,0 +1,162 @@
+#include "systems/mechanism/mechanism_motion.h"
+
+#include <string.h>
+
+#include "math/functions.h"
+#include "model/model.h"
+#include "systems/multibody/loop_rows.h"
+#include "systems/multibody/multibody.h"
+
+static const double PI = 3.141592653589793238462643383280;
+
+// ---- motion
+
+body_motion mechanism_point_motion(const mechanism_motion *motion, const mechanism_point *point)
+{
+    if (point->element == MECHANISM_GROUND)
+        return (body_motion){.r = point->at, .A = point->axes};
+    body_motion of;
+    if (point->element == MECHANISM_CARRIER) {
+        const base_frame *carrier = &motion->carrier;
+        of = (body_motion){carrier->r, carrier->v, carrier->A, carrier->w};
+    } else {
+        of = motion->body[point->element];
+    }
+    v3 arm = m3_apply(of.A, point->at);
+    return (body_motion){v3_add(of.r, arm), v3_add(of.v, v3_cross(of.w, arm)),
+                         m3_mul(of.A, point->axes), of.w};
+}
+
+void mechanism_gather(const mechanism_system *self, const base_frame *carrier, const double *state,
+                      double *q, double *u)
+{
+    memcpy(q, state, (size_t)self->q_count * sizeof *state);
+    memcpy(u, state + self->q_count, (size_t)self->u_count * sizeof *state);
+    if (self->carrier < 0)
+        return;
+    v3_store(q + self->q_count, carrier->r);
+    memcpy(q + self->q_count + 3, &carrier->q, 4 * sizeof *q);
+    v3_store(u + self->u_count, carrier->v);
+    v3_store(u + self->u_count + 3, m3_apply_transposed(carrier->A, carrier->w));
+}
+
+static void move_bodies(const mechanism_system *self, mechanism_motion *motion)
+{
+    ld_mstmm *chain = self->chain;
+    multibody_move(chain, motion->q, motion->u);
+    multibody_place(chain, motion->u);
+    for (int e = 0; e < self->element_count; e++) {
+        int i = chain->element_node[e];
+        motion->body[e] = (body_motion){chain->place[i].linear, chain->place[i].angular,
+                                        node_body_axes(chain, i), v4d_v3(chain->motion[i].w)};
+    }
+}
+
+void mechanism_move(const mechanism_system *self, double t, const base_frame *carrier,
+                    const double *state, mechanism_motion *motion)
+{
+    motion->t = t;
+    motion->carrier = *carrier;
+    mechanism_gather(self, carrier, state, motion->q, motion->u);
+    move_bodies(self, motion);
+    body_motion tube = mechanism_point_motion(motion, &self->tube);
+    motion->tube = (base_frame){
+        .r = tube.r, .v = tube.v, .A = tube.A, .q = q_from_matrix(tube.A), .w = tube.w};
+}
+
+// ---- struts
+
+void mechanism_strut_line(const mechanism_motion *motion, const mechanism_strut *strut,
+                          strut_line *line)
+{
+    line->from = mechanism_point_motion(motion, &strut->from);
+    line->to = mechanism_point_motion(motion, &strut->to);
+    v3 arm = v3_sub(line->to.r, line->from.r);
+    line->length = v3_norm(arm);
+    line->e = v3_scale(1 / line->length, arm);
+    line->rate = v3_dot(line->e, v3_sub(line->to.v, line->from.v));
+}
+
+// ---- holds
+
+// Value and its rate at time t: linear between the table's rows, from a row's time on the slope
+// behind it; constant outside.
+static double command_at(const ld_table *table, double t, double *rate)
+{
+    const double *row = table->data;
+    size_t n = table->columns, first = 0, end = table->rows;
+    *rate = 0;
+    if (t < row[0])
+        return row[1];
+    // the last row at or before t
+    while (end - first > 1) {
+        size_t middle = (first + end) / 2;
+        if (t >= row[middle * n])
+            first = middle;
+        else
+            end = middle;
+    }
+    row += first * n;
+    if (end == table->rows)
+        return row[1];
+    *rate = (row[n + 1] - row[1]) / (row[n] - row[0]);
+    return row[1] + *rate * (t - row[0]);
+}
+
+// Into [-pi, pi].
+static double wrapped(double angle)
+{
+    return fabs(angle) > PI ? remainder(angle, 2 * PI) : angle;
+}
+
+// Yaw or pitch of an x axis d, of unit length, and their rates under d_dot = w x d (model.md,
+// section 1).
+static void measure(v3 d, v3 w, bool pitch, hinge_report *report)
+{
+    v3 d_dot = v3_cross(w, d);
+    double square = d.x * d.x + d.z * d.z, level = sqrt(square);
+    report->measured = pitch ? atan2(d.y, level) : atan2(-d.z, d.x);
+    report->measured_rate = pitch ? d_dot.y / level : (d.z * d_dot.x - d.x * d_dot.z) / square;
+}
+
+// Rate about (along) its axis of what carries it.
+static double rate_of_carrier(const mechanism_system *self, const mechanism_hold *hold,
+                              const mechanism_motion *motion)
+{
+    if (hold->strut >= 0 || hold->carrier < 0)
+        return 0;
+    const ld_mstmm *chain = self->chain;
+    int i = chain->element_node[self->joint_element[hold->joint]];
+    v3 axis = v4d_v3(chain->motion[i].A[2]);
+    return v3_dot(motion->body[hold->carrier].w, axis);
+}
+
+void mechanism_watch(const mechanism_system *self, int index, const mechanism_motion *motion,
+                     hinge_report *report)
+{
+    const mechanism_hold *hold = &self->hold[index];
+    if (hold->strut >= 0) {
+        strut_line line;
+        mechanism_strut_line(motion, &self->strut[hold->strut], &line);
+        report->angle = line.length;
+        report->rate = line.rate;
+    } else {
+        report->angle = motion->q[hold->q];
+        report->rate = motion->u[hold->u];
+    }
+    report->base_rate = rate_of_carrier(self, hold, motion);
+    report->measured = report->angle;
+    report->measured_rate = report->rate;
+    if (hold->follows != LD_FOLLOWS_JOINT) {
+        bool tube = hold->of == self->tube.element;
+        v3 d = tube ? m3_column(motion->tube.A, 0) : m3_column(motion->body[hold->of].A, 0);
+        measure(d, motion->body[hold->of].w, hold->follows == LD_FOLLOWS_PITCH, report);
+    }
+    report->command_rate = 0;
+    report->command = hold->control
+                          ? command_at(&hold->control->command, motion->t, &report->command_rate)
+                          : hold->command;
+    report->error = report->command - report->measured;
+    if (hold->follows != LD_FOLLOWS_JOINT)
+        report->error = wrapped(report->error);
+}
