@@ -43,10 +43,10 @@ static void print_row(const char *name, const ld_rocket_summary *a, const ld_roc
                       long long steps)
 {
     const double difference[8] = {
-        1e6 * (a->t_release - b->t_release),       1e6 * (a->t_front - b->t_front),
-        1e6 * (a->t_middle - b->t_middle),         1e6 * (a->t_rear - b->t_rear),
-        1e3 * (a->muzzle_speed - b->muzzle_speed), 1e3 * (a->pitch_rate - b->pitch_rate),
-        1e3 * (a->yaw_rate - b->yaw_rate),         1e3 * (a->spin_rate - b->spin_rate)};
+        1e6 * (a->t_release - b->t_release),   1e6 * (a->t_front - b->t_front),
+        1e6 * (a->t_middle - b->t_middle),     1e6 * (a->t_rear - b->t_rear),
+        1e3 * (a->exit_speed - b->exit_speed), 1e3 * (a->pitch_rate - b->pitch_rate),
+        1e3 * (a->yaw_rate - b->yaw_rate),     1e3 * (a->spin_rate - b->spin_rate)};
     printf("| %s ", name);
     for (int i = 0; i < 8; i++)
         printf("| %.1g ", fabs(difference[i]));

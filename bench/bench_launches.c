@@ -29,7 +29,7 @@ static ld_status launch(ld_model *model, double mass, double *sum, ld_error *err
         status = ld_simulation_run(simulation, &(ld_run_options){.sink = ld_history_sink(history)},
                                    summary, error);
     if (!status)
-        status = ld_summary_number(summary, "rocket.1.muzzle_speed", &speed, error);
+        status = ld_summary_number(summary, "rocket.1.exit_speed", &speed, error);
     if (!status)
         tip = ld_history_column(history, "tip.y", &rows);
     *sum += tip ? speed + tip[rows - 1] : speed;

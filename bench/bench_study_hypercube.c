@@ -34,7 +34,7 @@ static const char scenario[] = "include: %s\n"
                                "    rocket.adaptors.front.clearance: {uniform: 0.3 0.5 mm}\n"
                                "    rocket.lock.release_force: {normal: 100 N, within: 3}\n";
 
-static const char *const results[] = {"t_front", "t_middle", "t_rear",     "muzzle_speed",
+static const char *const results[] = {"t_front", "t_middle", "t_rear",     "exit_speed",
                                       "pitch",   "yaw",      "pitch_rate", "yaw_rate"};
 enum { RESULTS = sizeof results / sizeof *results };
 

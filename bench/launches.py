@@ -17,6 +17,6 @@ start = time.process_time()
 for i in range(count):
     scenario["rocket.mass"] = 60 + i * 1e-3
     result = scenario.run()
-    total += result.summary["rocket.1.muzzle_speed"] + result["tip.y"][-1]
+    total += result.summary["rocket.1.exit_speed"] + result["tip.y"][-1]
 print(f"{count} launches by the Python package: {time.process_time() - start:.2f} s of CPU time "
       f"(sum {total:.17g})")

@@ -118,7 +118,7 @@ function notesBlock(notes) {
 
 // The large number: the speed along the tube at the exit, or of a flight alone how far it goes.
 function headline(rockets, named) {
-  const speed = saidOf(rockets.map(({ muzzle_speed: v }) => v), "m/s");
+  const speed = saidOf(rockets.map(({ exit_speed: v }) => v), "m/s");
   const [said, label] = speed ? [speed, named("along the tube at the exit")]
     : [saidOf(rockets.map(({ flight }) => flight?.range), "m"), "range"];
   if (!said) return null;

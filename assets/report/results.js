@@ -9,7 +9,7 @@ export const ROCKET = [
   ["t_front", "front adaptor leaves", "ms", 1e3],
   ["t_middle", "middle adaptor leaves", "ms", 1e3],
   ["t_rear", "rear adaptor leaves", "ms", 1e3],
-  ["muzzle_speed", "exit speed, along the tube", "m/s", 1],
+  ["exit_speed", "exit speed, along the tube", "m/s", 1],
   ["inertial_speed", "exit speed, over ground", "m/s", 1],
   ["spin_rate", "spin", "rad/s", 1],
   ["since_ignition.pitch", "pitch, launcher's axes at ignition", ...MRAD],

@@ -101,7 +101,7 @@ host.replaceChildren(element("header", {}, element("h1", {}, title), nav, themeS
   data.series.length > 1 && data.series.length <= MOST_NAMED
     ? element("p", { className: "legend" }, ...data.series.map(seriesName)) : null));
 const notes = data.notes.map((note) => element("p", { className: "warning" }, note));
-const shots = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
+const launches = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
 const listed = first.length ? first : swept(), told = listed.length ? answer(data, listed) : null, [shares, otherShares] = sensitivities();
 const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, { ...pair, title: marked(pair.y, pair.title, steep.length > 0) })).filter(Boolean);
 const lead = (title, plots, others) => // beside each other
@@ -115,10 +115,10 @@ else {
   section("summary", "Answer", ...notes, ...states(), told);
   section("sensitivities", "Sensitivities", shares, otherShares);
 }
-section("measured", "Measured and simulated", shots.length ? measured(data, shots) : null,
-  shots.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: spread of measured values about " +
+section("measured", "Measured and simulated", launches.length ? measured(data, launches) : null,
+  launches.length ? element("p", { className: "shown" }, "Difference: mean measured less mean simulated; ratio: spread of measured values about " +
     "their median over that of simulated ones. p: probability of such a difference by chance; * below 5\u00a0%, as in one of twenty tests by chance.") : null,
-  grid(shots.map((result) => beside(data, result))));
+  grid(launches.map((result) => beside(data, result))));
 section("scatter", "Scatter", besides === "scatter" ? null : grid(clouds));
 const openly = data.series.length === 1 && data.pairs.some(({ series: [own] }) => own && statedOf(own).length > 0); // else folded
 section("footprints", "Footprints (range safety)", openly ? footprints(data) : null);

@@ -281,9 +281,9 @@ export function sensitivity(data, { name, series }) {
   });
 }
 
-// ---- measured shots ----
+// ---- measured launches ----
 
-// Shots and each series as dots in a row of their own, the mean with its interval above them.
+// Launches and each series as dots in a row of their own, the mean with its interval above them.
 export function beside(data, result) {
   const sides = [{ label: "measured", style: "--series: var(--ink)", own: result.own },
     ...having(data, result.series).map(({ series, s, own }) => ({ label: series.label, style: colourOf(s), own }))];

@@ -51,7 +51,7 @@ export const partName = (index) => (index < 0 ? "Other results" : PARTS[index][0
 export const partCount = PARTS.length;
 
 // What one asks a study first, in this order: of it the first that there are.
-const FIRST = [/^measure\./, /^muzzle_speed$/, /^since_ignition\.(pitch|yaw)_rate$/, /^downrange$/, /^drift$/, /^apogee$/, /^spin_rate$/,
+const FIRST = [/^measure\./, /^exit_speed$/, /^since_ignition\.(pitch|yaw)_rate$/, /^downrange$/, /^drift$/, /^apogee$/, /^spin_rate$/,
   /^since_ignition\.(pitch|yaw)$/, /^tip_off\.(pitch|yaw)_rate_relative$/, /^tip_off\.(pitch|yaw)_rate$/, /^tip_off\.(pitch|yaw)$/, /^impact_speed$/, /^time_of_flight$/, /^max_contact_force/, /^max_mach$/];
 
 export function foremost(list, most) {

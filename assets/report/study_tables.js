@@ -160,11 +160,11 @@ export function measured(data, results) {
   const rows = results.flatMap((result) => [
     part(result, "mean", (of) => of.mean, (of, f) => [estimate(of.difference, f), chance(of.difference_chance)]),
     part(result, "deviation", (of) => of.deviation, (of) => [estimate(of.ratio, 1), chance(of.ratio_chance)])]);
-  const { file, shots, salvos } = data.measured;
-  return card(`Measured in ${file}: ${shots} launches${salvos ? ` of ${salvos} salvos` : ""}`, element("table", { className: "statistics" },
+  const { file, launches, salvos } = data.measured;
+  return card(`Measured in ${file}: ${launches} launches${salvos ? ` of ${salvos} salvos` : ""}`, element("table", { className: "statistics" },
     several ? element("tr", {}, ...Array.from({ length: 5 }, () => head("")), ...data.series.map((series, i) =>
       head(seriesName(series, i), "colgroup", { colSpan: 3 }))) : null,
-    element("tr", {}, ...["", "", "", "shots", "measured", ...data.series.flatMap(() => ["simulated", "difference, ratio", "p"])].map((name) => head(name))),
+    element("tr", {}, ...["", "", "", "launches", "measured", ...data.series.flatMap(() => ["simulated", "difference, ratio", "p"])].map((name) => head(name))),
     ...rows));
 }
 

@@ -44,7 +44,7 @@ static void tell(const ld_model *model, const ld_history *history, const ld_summ
     ld_model_text(model, "rocket.mass", mass, sizeof mass, NULL);
     printf("%s  leaves at %8.4f ms with %8.4f m/s, pitch rate %8.3f mrad/s; tip moved up to %.3f "
            "mm\n",
-           mass, 1e3 * result(summary, "rocket.1.t_rear"), result(summary, "rocket.1.muzzle_speed"),
+           mass, 1e3 * result(summary, "rocket.1.t_rear"), result(summary, "rocket.1.exit_speed"),
            1e3 * result(summary, "rocket.1.pitch_rate"), 1e3 * largest);
 }
 

@@ -51,11 +51,11 @@ ld_status ld_report_write_runs(const char *const *folder, size_t count, const ch
 ld_status ld_report_write_studies(const char *const *folder, size_t count, const char *file,
                                   ld_report *report, ld_error *error);
 
-/// The same with measured shots beside the studies: differences with intervals and p
+/// The same with measured launches beside the studies: differences with intervals and p
 /// (docs/study.md).
-/// @param shots a CSV file of results of the first study, with their units; NULL: none
+/// @param launches a CSV file of results of the first study, with their units; NULL: none
 /// @return as ld_report_write_studies(); LD_ERR_INPUT: the file is wrong, with line and column
-ld_status ld_report_write_measured(const char *const *folder, size_t count, const char *shots,
+ld_status ld_report_write_measured(const char *const *folder, size_t count, const char *launches,
                                    const char *file, ld_report *report, ld_error *error);
 
 #pragma GCC visibility pop

@@ -57,6 +57,12 @@ char *ld_visible_text(const char *text, char *visible, size_t size);
 /// none is near.
 const char *ld_nearest_name(const char *word, const char *const *names, size_t count);
 
+/// What a quantity is called that had another name in earlier versions: "rocket.1.exit_speed" for
+/// "rocket.1.muzzle_speed". Functions that find columns and results by name accept such names.
+/// @param name of `size` bytes, always ended; what is too long is cut
+/// @return `name`; NULL: not a former name
+const char *ld_current_name(const char *former, char *name, size_t size);
+
 /// The name that the text of an error or of a message suggests ("..., did you mean "mass"?"), for
 /// programs that offer it by itself.
 /// @param name of `size` bytes, always ended; what is too long is cut

@@ -84,7 +84,7 @@ typedef struct ld_study_view {
     const char *what;     ///< names of results, with commas between; "all"; NULL: a choice
     bool sensitivity;     ///< how much of the variance each factor explains, instead of statistics
     bool json;            ///< as JSON (docs/command.md), in full precision
-    const char *measured; ///< a CSV file of measured shots, beside which its results are shown
+    const char *measured; ///< a CSV file of measured launches, beside which its results are shown
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
                           ///< others are from it is shown instead (docs/study.md); NULL: none
@@ -94,7 +94,7 @@ typedef struct ld_study_view {
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point
 /// by point of a sweep, and side by side.
-/// @return LD_OK; LD_ERR_INPUT (no study there, no such result, wrong measured shots, no such
+/// @return LD_OK; LD_ERR_INPUT (no study there, no such result, wrong measured launches, no such
 /// point,
 ///         nowhere two pairs), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,

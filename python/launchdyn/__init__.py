@@ -4,7 +4,7 @@
     scenario = ld.Scenario.read("fixed.yaml")
     scenario["rocket.mass"] = "61 kg"
     result = scenario.run()
-    result.summary["rocket.1.muzzle_speed"]     # a number in SI
+    result.summary["rocket.1.exit_speed"]     # a number in SI
     result["tip.y"]                             # a numpy array
     result.plot("tip.y", "tip.z")               # a figure
 

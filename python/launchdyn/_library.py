@@ -189,6 +189,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_version": (_text, []),
     "ld_version_number": (c_int, []),
     "ld_suggested_name": (_text, [_text, c_void_p, c_size_t]),
+    "ld_current_name": (_text, [_text, c_void_p, c_size_t]),
     "ld_nearest_name": (_text, [_text, _texts, c_size_t]),
     # scenario.h
     "ld_messages_free": (None, [_messages]),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import enum
 import os
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Optional, Sequence
 
@@ -139,6 +140,15 @@ class MissingError(LaunchdynError):
 
 KINDS = {kind.code: kind for kind in (InputError, FileError, OutOfMemory, NumericError,
                                       LaunchError, Interrupted, MissingError)}
+
+
+def tell_renamed(*names: str) -> None:
+    """Warns of former names of columns and results, which the library accepts."""
+    text = ctypes.create_string_buffer(256)
+    for name in names:
+        now = text_of(library.ld_current_name(name.encode(), text, len(text)))
+        if now:
+            warnings.warn(f'"{name}" is called "{now}" now', FutureWarning, stacklevel=3)
 
 
 def suggested(text: str) -> Optional[str]:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ._interrupt import Interrupt
 from ._library import GO_ON, ld_column, ld_error, ld_loop_margins, ld_watch, library
 from ._memory import Array, Handle, Held, coded, text_of, texts
-from .errors import UnknownName, check, check_name
+from .errors import UnknownName, check, check_name, tell_renamed
 from .result import Column, Columns
 
 ComplexArray = npt.NDArray[np.complex128]
@@ -110,6 +110,7 @@ class Response(Held):
         if not names:
             raise ValueError("no columns given; `columns` lists them")
         error = ld_error()
+        tell_renamed(*names)
         check_name(library.ld_response_choose(self._pointer, texts(names), len(names),
                                               ctypes.byref(error)), error)
 

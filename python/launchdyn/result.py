@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 from ._library import QUANTITY_TAKER, ld_error, library
 from ._memory import Array, Handle, array_at, coded, printed, text_of, texts
-from .errors import MissingError, UnknownName, check_name
+from .errors import MissingError, UnknownName, check_name, tell_renamed
 
 if TYPE_CHECKING:
     import pandas
@@ -44,7 +44,7 @@ class Columns(dict[str, Column]):
 class Quantity:
     """A number of a summary."""
 
-    name: str  #: e.g. "rocket.1.muzzle_speed"
+    name: str  #: e.g. "rocket.1.exit_speed"
     unit: str  #: SI; "" or "1": none
     description: str  #: one line, with frame
     value: float  #: NaN where there is none
@@ -96,6 +96,7 @@ class History(Mapping[str, Array]):
             near = nearest(name, list(self.columns))
             raise UnknownName(f'there is no column "{name}"'
                               + (f', did you mean "{near}"?' if near else ""))
+        tell_renamed(name)
         return array_at(found, rows.value, self._handle)
 
     def __iter__(self) -> Iterator[str]:
@@ -136,7 +137,7 @@ class History(Mapping[str, Array]):
 
 
 class Summary(Mapping[str, float]):
-    """Numbers of a run by their names (docs/quantities.md), in SI: "rocket.1.muzzle_speed",
+    """Numbers of a run by their names (docs/quantities.md), in SI: "rocket.1.exit_speed",
     "energy.residual_relative", "mode.1.frequency"; NaN where there is none."""
 
     def __init__(self, handle: Handle) -> None:
@@ -151,6 +152,7 @@ class Summary(Mapping[str, float]):
         error, value = ld_error(), ctypes.c_double()
         check_name(library.ld_summary_number(self._handle.pointer, coded(name),
                                              ctypes.byref(value), ctypes.byref(error)), error)
+        tell_renamed(name)
         return value.value
 
     def __iter__(self) -> Iterator[str]:
@@ -176,7 +178,7 @@ def quantities_at(pointer: int) -> list[Quantity]:
 
 
 class Result:
-    """What came of a run. `result["tip.y"]` is a column, `result.summary["rocket.1.muzzle_speed"]`
+    """What came of a run. `result["tip.y"]` is a column, `result.summary["rocket.1.exit_speed"]`
     a number, `result.flight(1)` a rocket's flight; of a flight alone the columns are those of the
     flight. A context manager; it need not be closed."""
 

@@ -17,7 +17,7 @@ from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_
                        ld_mode, ld_pole, ld_run_options, library)
 from ._memory import Array, Handle, Held, coded, coded_path, text_of
 from ._progress import Progress, followed
-from .errors import InputError, Status, check, check_name, failure
+from .errors import InputError, Status, check, check_name, failure, tell_renamed
 from .result import Column, Columns, Quantity, Result, quantities_at
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -339,6 +339,7 @@ class Run(Held):
         if status == Status.INPUT:
             check_name(status, error)
         self._check(status, error)
+        tell_renamed(name)
         return value.value
 
     def row(self) -> Array:

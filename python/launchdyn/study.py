@@ -21,7 +21,7 @@ from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_
 from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
-from .errors import Status, check, check_name
+from .errors import Status, check, check_name, tell_renamed
 from .result import data_set, pandas_here
 from .scenario import Scenario, dict_text, read_model
 
@@ -322,6 +322,7 @@ class StudyData(Held):
                 "rocket": _copy(v.rocket, count, np.intc)}
             for column, name in enumerate(names):
                 taken[name] = _copy(v.value[column], count, np.float64)
+        tell_renamed(*names)
         return taken
 
     def __getitem__(self, name: str) -> Array:
@@ -332,6 +333,7 @@ class StudyData(Held):
         """Statistics of a column at a point, in SI."""
         error = ld_error()
         found = ctypes.POINTER(ld_study_statistics)()
+        tell_renamed(name)
         with self._lock:
             check_name(library.ld_study_data_statistics(self._pointer, point, coded(name),
                                                         ctypes.byref(found),
@@ -345,6 +347,7 @@ class StudyData(Held):
         """What share of the variance of a result a factor explains alone; NaN where the result
         does not scatter, or with too few samples."""
         error, share = ld_error(), ld_estimate()
+        tell_renamed(result)
         with self._lock:
             check_name(library.ld_study_data_sensitivity(
                 self._pointer, point, coded(result), coded(factor), ctypes.byref(share),
@@ -408,8 +411,9 @@ class StudyData(Held):
 
     def show(self, what: Optional[str] = None, sensitivity: bool = False,
              measured: Optional[PathLike] = None, against: Optional[str] = None) -> str:
-        """The tables that `launchdyn study show` prints, of results by name or "all"; beside the
-        `measured` shots of a CSV file; or how far points of the sweep are from one, `against`."""
+        """The tables that `launchdyn study show` prints, of results by name or "all"; compared with
+        the `measured` launches of a CSV file; or how far points of the sweep are from one,
+        `against`."""
         error, view = ld_error(), ld_study_view(
             what=coded(what) if what else None, sensitivity=sensitivity,
             measured=coded_path(measured) if measured else None,

@@ -51,23 +51,31 @@ static bool may_mean(const char *wanted, const char *name, size_t longer, int di
     return distance <= most_edits(longer) && distance < (int)longer && (distance < 2 || alike);
 }
 
-// Quantities that had another name before: how both begin.
+// Quantities that had another name in earlier versions; one that ends with a point begins those of
+// a group.
 static const struct {
-    const char *before, *now;
-} renamed[] = {{"aim.", "since_ignition."}};
+    const char *former, *now;
+} renamed[] = {{"aim.", "since_ignition."}, {"muzzle_speed", "exit_speed"}};
 
-// Whether the name is what the wanted one, or what stands behind its dots, is called now.
-static bool is_renamed(const char *wanted, const char *name)
+const char *ld_current_name(const char *former, char *name, size_t size)
 {
     for (size_t i = 0; i < sizeof renamed / sizeof *renamed; i++) {
-        const char *at = strstr(wanted, renamed[i].before);
-        size_t head = at ? (size_t)(at - wanted) : 0;
-        if (at && (head == 0 || at[-1] == '.') && strncmp(wanted, name, head) == 0 &&
-            strncmp(name + head, renamed[i].now, strlen(renamed[i].now)) == 0 &&
-            strcmp(at + strlen(renamed[i].before), name + head + strlen(renamed[i].now)) == 0)
-            return true;
+        const char *at = strstr(former, renamed[i].former);
+        size_t length = strlen(renamed[i].former);
+        bool group = renamed[i].former[length - 1] == '.';
+        if (!at || (at > former && at[-1] != '.') || (!group && at[length]))
+            continue;
+        snprintf(name, size, "%.*s%s%s", (int)(at - former), former, renamed[i].now, at + length);
+        return name;
     }
-    return false;
+    return NULL;
+}
+
+// Whether the name is what the wanted one is called now.
+static bool is_renamed(const char *wanted, const char *name)
+{
+    char now[256];
+    return ld_current_name(wanted, now, sizeof now) && strcmp(now, name) == 0;
 }
 
 name_suggestion suggestion_begin(const char *wanted)

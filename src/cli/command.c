@@ -58,6 +58,18 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
+void command_tell_renamed(const char *list)
+{
+    char name[128], now[160];
+    size_t length;
+    for (const char *at = list; at && *at; at += length + (at[length] == ',')) {
+        length = strcspn(at, ",");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        if (length < sizeof name && ld_current_name(name, now, sizeof now))
+            command_complain("%s is called %s now", name, now);
+    }
+}
+
 void command_step(const char *format, ...)
 {
     char text[LD_ERROR_TEXT];

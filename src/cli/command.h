@@ -98,6 +98,10 @@ bool command_line_read(command_line *line, const command *self, int argc, char *
 // Prints "launchdyn: text" on stderr.
 void command_complain(const char *format, ...) LD_PRINTF(1, 2);
 
+// Says on stderr which names of a list, "NAME,...", are former ones, and what they are called now;
+// the library accepts both. NULL: no list.
+void command_tell_renamed(const char *list);
+
 // Prints the error and returns the exit code that belongs to its status.
 int command_fail(ld_status status, const ld_error *error);
 

@@ -43,7 +43,7 @@ static const command commands[] = {
          "to N, and the same DIR. launchdyn study merge DIR then merges the results.",
      .examples =
          "launchdyn study scenario.yaml --out out -j 4|Run or continue, four samples at a time\n"
-         "launchdyn study show out --what muzzle_speed,pitch_rate|Statistics of two "
+         "launchdyn study show out --what exit_speed,pitch_rate|Statistics of two "
          "results\n"
          "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,

@@ -41,9 +41,9 @@ int command_write_report(const char *folder, const char *file, bool silent)
     return finish(status, &error, &report, place_of(folder, file, usual), silent);
 }
 
-// `shots`: of studies, the file with measured ones, or NULL.
-static int write_several(const char *const *folder, size_t count, bool studies, const char *shots,
-                         const char *file)
+// `launches`: of studies, the file with measured ones, or NULL.
+static int write_several(const char *const *folder, size_t count, bool studies,
+                         const char *launches, const char *file)
 {
     static ld_report report;
     ld_error error;
@@ -53,9 +53,9 @@ static int write_several(const char *const *folder, size_t count, bool studies, 
         return EXIT_INPUT;
     }
     file = place_of(folder[0], file, usual);
-    ld_status status = studies
-                           ? ld_report_write_measured(folder, count, shots, file, &report, &error)
-                           : ld_report_write_runs(folder, count, file, &report, &error);
+    ld_status status =
+        studies ? ld_report_write_measured(folder, count, launches, file, &report, &error)
+                : ld_report_write_runs(folder, count, file, &report, &error);
     return finish(status, &error, &report, file, false);
 }
 
@@ -68,10 +68,10 @@ static bool holds_study(const char *folder)
 
 int command_report(const command *self, int argc, char **argv)
 {
-    char *file = NULL, *shots = NULL;
+    char *file = NULL, *launches = NULL;
     const command_option options[] = {
         {"output", 'o', OPTION_TEXT, &file, "File of the report (DIR/report.html)", "FILE"},
-        {"measured", '\0', OPTION_TEXT, &shots,
+        {"measured", '\0', OPTION_TEXT, &launches,
          "Compare studies with the measured launches in this CSV file", "FILE"},
         COMMAND_USUAL};
     command_line line;
@@ -80,11 +80,11 @@ int command_report(const command *self, int argc, char **argv)
         bool studies = false;
         for (size_t i = 0; i < line.count; i++)
             studies |= holds_study(line.word[i]);
-        if (shots && !studies) {
+        if (launches && !studies) {
             command_complain("--measured requires at least one study");
             code = EXIT_INPUT;
         } else if (line.count > 1 || studies) {
-            code = write_several(line.word, line.count, studies, shots, file);
+            code = write_several(line.word, line.count, studies, launches, file);
         } else {
             code = command_write_report(line.word[0], file, false);
         }

@@ -143,6 +143,7 @@ int command_response(const command *self, int argc, char **argv)
     wishes.wish.draws = draws;
     wishes.wish.loop = wishes.loop;
     wishes.wish.what = names;
+    command_tell_renamed(wishes.what);
     wishes.wish.what_count = split(wishes.what, names);
     if (wishes.speeds && !read_speeds(wishes.speeds, &wishes.wish)) {
         command_complain("--speeds: found \"%s\", expected FROM:TO:STEP in km/h, such as 0:60:1",

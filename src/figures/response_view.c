@@ -108,6 +108,12 @@ static ld_status choose_all(ld_response_view *view, ld_error *error)
     return status || view->column ? status : no_memory(error);
 }
 
+// What a column or result is called now.
+static const char *present_name(const char *name, char now[QUANTITY_NAME])
+{
+    return ld_current_name(name, now, QUANTITY_NAME) ? now : name;
+}
+
 static ld_status choose(ld_response_view *view, const char *const *names, size_t count,
                         ld_error *error)
 {
@@ -119,10 +125,13 @@ static ld_status choose(ld_response_view *view, const char *const *names, size_t
     view->column = malloc((count + 1) * sizeof *view->column);
     if (!view->column)
         return no_memory(error);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        char now[QUANTITY_NAME];
+        const char *name = present_name(names[i], now);
         for (size_t k = 0; k < all; k++)
-            if (strcmp(columns[k].name, names[i]) == 0)
+            if (strcmp(columns[k].name, name) == 0)
                 view->column[i] = columns[k];
+    }
     view->columns = count;
     return LD_OK;
 }
@@ -130,7 +139,7 @@ static ld_status choose(ld_response_view *view, const char *const *names, size_t
 // Numbers of a launch: their names, units and what they are.
 static const char *const at_exit[] = {
     "t_rear",
-    "muzzle_speed",
+    "exit_speed",
     "since_ignition.pitch",
     "since_ignition.yaw",
     "since_ignition.pitch_rate",
@@ -160,8 +169,10 @@ static ld_status choose_exit(ld_response_view *view, const ld_response_wish *wis
     if (!view->column || !view->name)
         return no_memory(error);
     for (size_t i = 0; i < view->columns; i++) {
-        quantity_walk at = study_result_find(&things, names[i]);
-        snprintf(view->name[i], QUANTITY_NAME, "%s", names[i]);
+        char now[QUANTITY_NAME];
+        const char *name = present_name(names[i], now);
+        quantity_walk at = study_result_find(&things, name);
+        snprintf(view->name[i], QUANTITY_NAME, "%s", name);
         view->column[i] = (ld_column){.name = view->name[i],
                                       .unit = at.row ? quantity_unit(&at) : "",
                                       .description = at.row ? at.row->description : ""};

@@ -32,7 +32,7 @@ void launch_record_exit(ld_run *run, double t, const double *landed)
     v3 axis = m3_column(pose.A_RB, 0);
     direction_angles angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(pose.w_B, axis)));
-    rocket->muzzle_speed = out.x_dot[X_S];
+    rocket->exit_speed = out.x_dot[X_S];
     rocket->inertial_speed = v3_norm(pose.v_O1);
     rocket->spin_rate = v3_dot(axis, pose.w_B);
     rocket->pitch = angles.pitch;

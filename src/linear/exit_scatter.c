@@ -79,8 +79,10 @@ static ld_status no_memory(ld_error *error)
 static ld_status find_figure(const quantity_things *things, const char *name, quantity_walk *found,
                              ld_error *error)
 {
-    char near[QUANTITY_NAME];
+    char near[QUANTITY_NAME], now[QUANTITY_NAME];
     *found = study_result_find(things, name);
+    if (!found->row && ld_current_name(name, now, sizeof now))
+        *found = study_result_find(things, now);
     if (found->row && found->group->where.type != QUANTITY_NONE)
         return ld_fail(error, LD_ERR_INPUT, "\"%s\" is a result of the flight, not of the exit",
                        name);

@@ -276,9 +276,12 @@ size_t ld_response_columns(const ld_response *response, const ld_column **column
 static ld_status find(const ld_column *columns, size_t count, const char *what, const char *name,
                       int *found, ld_error *error)
 {
+    char now[LD_MAX_QUANTITY];
     name_suggestion best = suggestion_begin(name);
+    if (!ld_current_name(name, now, sizeof now))
+        now[0] = '\0';
     for (size_t i = 0; i < count; i++) {
-        if (strcmp(columns[i].name, name) == 0) {
+        if (strcmp(columns[i].name, name) == 0 || strcmp(columns[i].name, now) == 0) {
             *found = (int)i;
             return LD_OK;
         }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "launchdyn/history.h"
+#include "model/blocks/limits.h"
 
 struct ld_history {
     ld_sink sink;
@@ -151,14 +152,23 @@ const ld_column *ld_history_columns(const ld_history *self, size_t *count)
     return self->column;
 }
 
+static size_t column_named(const ld_history *self, const char *name)
+{
+    size_t i = 0;
+    while (i < self->columns && strcmp(self->column[i].name, name) != 0)
+        i++;
+    return i;
+}
+
 const double *ld_history_column(const ld_history *self, const char *name, size_t *count)
 {
+    char now[LD_MAX_QUANTITY];
     if (count)
         *count = self->rows;
-    for (size_t i = 0; i < self->columns; i++)
-        if (strcmp(self->column[i].name, name) == 0)
-            return self->value ? self->value + i * self->room : NULL;
-    return NULL;
+    size_t i = column_named(self, name);
+    if (i == self->columns && ld_current_name(name, now, sizeof now))
+        i = column_named(self, now);
+    return i < self->columns && self->value ? self->value + i * self->room : NULL;
 }
 
 const ld_history *ld_history_flight(const ld_history *self, int rocket)

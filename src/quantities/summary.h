@@ -110,7 +110,7 @@ typedef struct ld_rocket_summary {
     double t_middle;                ///< middle adaptor (of exactly three) passes the tip
     double t_rear;                  ///< rear adaptor passes the tip: the rocket has left
     double t_exit[LD_MAX_ADAPTORS]; ///< the same for every adaptor, in the model's order
-    double muzzle_speed;            ///< [m/s] s_dot at t_rear, relative to the tube
+    double exit_speed;              ///< [m/s] s_dot at t_rear, relative to the tube
     double inertial_speed;          ///< [m/s] of O1 in I at t_rear
     double spin_rate;               ///< [rad/s] x component of the rate of B against I, in B
     double pitch, yaw;              ///< [rad] of B's x axis in I: model.md section 1

@@ -43,7 +43,7 @@ static const quantity exits[] = {
     {"t_exit.%s", "s", "adaptor %s passes the tip", ADAPTOR(t_exit), LINE("%s adaptor leaves", "ms", MILLI, 4)},
 };
 static const quantity at_exit[] = {
-    {"muzzle_speed", "m/s", "s_dot at t_rear, relative to the tube", ROCKET(muzzle_speed), KEPT, LINE("exit speed", "m/s", 1, 4)},
+    {"exit_speed", "m/s", "s_dot at t_rear, relative to the tube", ROCKET(exit_speed), KEPT, LINE("exit speed", "m/s", 1, 4)},
     {"inertial_speed", "m/s", "speed of the rear adaptor's centre in I at t_rear", ROCKET(inertial_speed), KEPT, LINE("inertial speed", "m/s", 1, 4)},
     {"spin_rate", "rad/s", "x component of the rate of B against I at t_rear, in B", ROCKET(spin_rate), KEPT, LINE("spin rate", "rad/s", 1, 4)},
 };

@@ -83,7 +83,7 @@ static ld_status open_studies(study_source *source, const char *const *folder, s
 
 static void close_studies(study_source *source)
 {
-    measured_free(&source->shots);
+    measured_free(&source->launches);
     for (int i = 0; i < source->series_count; i++)
         study_values_free(&source->series[i].values);
     for (int i = 0; i < source->study_count; i++) {
@@ -159,7 +159,7 @@ static ld_status write_report(study_source *source, const char *file, ld_error *
     return status;
 }
 
-ld_status ld_report_write_measured(const char *const *folder, size_t count, const char *shots,
+ld_status ld_report_write_measured(const char *const *folder, size_t count, const char *launches,
                                    const char *file, ld_report *report, ld_error *error)
 {
     ld_report unwanted;
@@ -169,13 +169,13 @@ ld_status ld_report_write_measured(const char *const *folder, size_t count, cons
     if (!source)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the report");
     source->report = report;
-    source->measured = shots;
+    source->measured = launches;
     ld_status status = open_studies(source, folder, count, error);
     if (!status && source->series_count == 0)
         status = ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
                          report->note_count ? report->note[0] : "nothing is named that has points");
-    if (!status && shots)
-        status = measured_read(shots, source->series[0].data, &source->shots, error);
+    if (!status && launches)
+        status = measured_read(launches, source->series[0].data, &source->launches, error);
     if (!status)
         status = write_report(source, file, error);
     if (!status && source->problem.status)

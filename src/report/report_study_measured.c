@@ -11,7 +11,7 @@ enum { MOST_SHOWN = 400, BYTES_OF_POINTS = 300000, BYTES_OF_A_POINT = 12 };
 static size_t most_points(const study_source *source)
 {
     double bytes = source->share * BYTES_OF_POINTS;
-    int sides = source->shots.results * (source->series_count + 1);
+    int sides = source->launches.results * (source->series_count + 1);
     size_t fit = (size_t)(bytes / (BYTES_OF_A_POINT * sides));
     return fit < MOST_SHOWN ? fit : MOST_SHOWN;
 }
@@ -49,7 +49,7 @@ static void write_side(FILE *json, const group_statistics *of)
     write_estimate(json, "deviation", of->deviation);
 }
 
-// The result of one series with how far it is from the shots; null where it has none.
+// The result of one series with how far it is from the launches; null where it has none.
 static ld_status write_series(FILE *json, study_source *source, study_series *series,
                               const measured_result *result)
 {
@@ -102,7 +102,7 @@ static ld_status write_result(FILE *json, study_source *source, const measured_r
 
 ld_status study_write_measured(FILE *json, study_source *source)
 {
-    const measured *shots = &source->shots;
+    const measured *launches = &source->launches;
     ld_status status = LD_OK;
     if (!source->measured) {
         fputs("null", json);
@@ -110,10 +110,11 @@ ld_status study_write_measured(FILE *json, study_source *source)
     }
     fputs("{\"file\":", json);
     json_write_text(json, source->measured);
-    fprintf(json, ",\"shots\":%zu,\"salvos\":%zu,\"results\":[", shots->shots, shots->salvos);
-    for (int i = 0; i < shots->results && !status; i++) {
+    fprintf(json, ",\"launches\":%zu,\"salvos\":%zu,\"results\":[", launches->count,
+            launches->salvos);
+    for (int i = 0; i < launches->results && !status; i++) {
         fputs(i ? "," : "", json);
-        status = write_result(json, source, &shots->result[i]);
+        status = write_result(json, source, &launches->result[i]);
     }
     fputs("]}", json);
     return status;

@@ -1,4 +1,4 @@
-// Measured shots in the report of studies.
+// Measured launches in the report of studies.
 #ifndef LD_REPORT_REPORT_STUDY_MEASURED_H
 #define LD_REPORT_REPORT_STUDY_MEASURED_H
 
@@ -6,7 +6,7 @@
 
 #include "report/report_study_source.h"
 
-// Writes the measured shots and, of each result, how far each series is from them: an object, or
+// Writes the measured launches and, of each result, how far each series is from them: an object, or
 // null where there are none.
 // @return LD_OK, LD_ERR_MEMORY
 ld_status study_write_measured(FILE *json, study_source *source);

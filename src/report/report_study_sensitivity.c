@@ -15,7 +15,7 @@ static const char *const results[] = {
     "since_ignition.yaw_rate",
     "downrange",
     "drift",
-    "muzzle_speed",
+    "exit_speed",
     "spin_rate",
     "apogee",
     "t_rear",

@@ -27,8 +27,8 @@ typedef struct study_source {
     ld_origin origin[REPORT_SERIES]; // of each study; empty where it is not known
     const char *folder[REPORT_SERIES];
     study_series series[REPORT_SERIES];
-    const char *measured; // file with shots to lay beside, or NULL
-    measured shots;       // what it holds
+    const char *measured; // file with launches to lay beside, or NULL
+    measured launches;    // what it holds
     ld_report *report;    // takes notes
     ld_error problem;     // what could not be read, the first; status 0: all could
 } study_source;

@@ -162,12 +162,22 @@ ld_status ld_run_row(ld_run *run, double *values, ld_error *error)
     return LD_OK;
 }
 
-ld_status ld_run_number(ld_run *run, const char *name, double *value, ld_error *error)
+// Number of the columns where there is none of that name.
+static int column_named(const ld_simulation *system, const char *name)
 {
-    const ld_simulation *system = run->launch.system;
     int i = 0;
     while (i < system->columns.count && strcmp(system->columns.column[i].name, name) != 0)
         i++;
+    return i;
+}
+
+ld_status ld_run_number(ld_run *run, const char *name, double *value, ld_error *error)
+{
+    const ld_simulation *system = run->launch.system;
+    char now[LD_MAX_QUANTITY];
+    int i = column_named(system, name);
+    if (i == system->columns.count && ld_current_name(name, now, sizeof now))
+        i = column_named(system, now);
     if (i == system->columns.count)
         return ld_fail(error, LD_ERR_INPUT, "there is no column \"%s\"", name);
     ld_status status = ld_run_row(run, run->row, error);

@@ -118,13 +118,11 @@ static ld_status refuse(const ld_summary *self, const char *name, ld_error *erro
     return ld_fail(error, LD_ERR_INPUT, "there is no result \"%s\"", name);
 }
 
-ld_status ld_summary_number(const ld_summary *self, const char *name, double *value,
-                            ld_error *error)
+// The number of that very name; false: there is none.
+static bool find_number(const ld_summary *self, const char *name, double *value)
 {
-    assert(self && name && value);
     const quantity_things things = quantity_things_of(self->model);
     section s;
-    *value = NAN;
     for (int i = 0; (s = section_at(self, i)).table; i++) {
         size_t length = strlen(s.prefix);
         if (strncmp(name, s.prefix, length) != 0)
@@ -133,7 +131,19 @@ ld_status ld_summary_number(const ld_summary *self, const char *name, double *va
         if (!at.row)
             continue;
         *value = quantity_value(&at, s.from);
-        return LD_OK;
+        return true;
     }
+    return false;
+}
+
+ld_status ld_summary_number(const ld_summary *self, const char *name, double *value,
+                            ld_error *error)
+{
+    assert(self && name && value);
+    char now[SUMMARY_NAME];
+    *value = NAN;
+    if (find_number(self, name, value) ||
+        (ld_current_name(name, now, sizeof now) && find_number(self, now, value)))
+        return LD_OK;
     return refuse(self, name, error);
 }

@@ -48,6 +48,16 @@ static void test_renamed_names(void **state)
     assert_string_equal(ld_nearest_name("aim.yaw_rate", names, count), "since_ignition.yaw_rate");
     assert_string_equal(ld_nearest_name("rocket.2.aim.vy", names, count),
                         "rocket.2.since_ignition.vy");
+    char now[32];
+    assert_string_equal(ld_current_name("rocket.2.aim.vy", now, sizeof now),
+                        "rocket.2.since_ignition.vy");
+    assert_string_equal(ld_current_name("rocket.1.muzzle_speed", now, sizeof now),
+                        "rocket.1.exit_speed");
+    assert_string_equal(ld_current_name("muzzle_speed", now, 5), "exit"); // cut
+    static const char *const present[] = {
+        "exit_speed", "claim.yaw", "muzzle_speeds", "muzzle_speed.x", "my_muzzle_speed", "aim", ""};
+    for (size_t i = 0; i < sizeof present / sizeof *present; i++)
+        assert_null(ld_current_name(present[i], now, sizeof now));
     assert_null(ld_nearest_name("claim.yaw", names, count));
     assert_null(ld_nearest_name("aim.spin", names, count));
 }

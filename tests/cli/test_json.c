@@ -331,9 +331,9 @@ static void test_study(void **state)
     assert_int_equal(run("launchdyn study examples/fixed.yaml -q -o s --set run.end=tip --set "
                          "'scatter={samples: 8, seed: 1, factors: {rocket.mass: {normal: 1 kg}}}'; "
                          "launchdyn study export s --csv all.csv; "
-                         "launchdyn study show s --json --what muzzle_speed,pitch_rate >a.json"),
+                         "launchdyn study show s --json --what exit_speed,pitch_rate >a.json"),
                      0);
-    mean = column_of("muzzle_speed", value);
+    mean = column_of("exit_speed", value);
     for (int i = 0; i < SAMPLES; i++) {
         square += (value[i] - mean) * (value[i] - mean);
         least = fmin(least, value[i]);
@@ -355,7 +355,7 @@ static void test_study(void **state)
     assert_int_equal(run("jq -c '[.format, .asked, (.points | length), .points[0].swept, "
                          "[.points[0].results[].name], .points[0].results[0].unit]' a.json"),
                      0);
-    assert_string_equal(shell.out, "[1,8,1,{},[\"muzzle_speed\",\"pitch_rate\"],\"m/s\"]\n");
+    assert_string_equal(shell.out, "[1,8,1,{},[\"exit_speed\",\"pitch_rate\"],\"m/s\"]\n");
 }
 
 // Of rockets that leave near the vertical the study says so, and those that do not count none; a
@@ -377,16 +377,56 @@ static void test_study_near_the_vertical(void **state)
                          "'.points[0].near_vertical'; done"),
                      0);
     assert_string_equal(shell.out, "{\"known\":2,\"above\":0}\n{\"known\":2,\"above\":2}\n");
-    assert_int_equal(run("launchdyn study show u81 -w aim.yaw"), 2);
-    assert_non_null(
-        strstr(shell.err, "no result \"aim.yaw\"; did you mean \"since_ignition.yaw\"?"));
+}
+
+// Former names of results and columns are accepted, and what they are called now is told.
+static void test_former_names(void **state)
+{
+    (void)state;
+    char now[sizeof shell.out];
+    assert_int_equal(run("launchdyn study show s --what since_ignition.yaw,exit_speed"), 0);
+    snprintf(now, sizeof now, "%s", shell.out);
+    assert_string_equal(shell.err, "");
+    assert_int_equal(run("launchdyn study show s --what aim.yaw,muzzle_speed"), 0);
+    assert_string_equal(shell.out, now);
+    assert_string_equal(shell.err, "launchdyn: aim.yaw is called since_ignition.yaw now\n"
+                                   "launchdyn: muzzle_speed is called exit_speed now\n");
+    // in a file of measured launches, too
+    assert_int_equal(run("printf 'muzzle_speed [m/s]\n38\n37.9\n38.1\n' >former.csv && "
+                         "launchdyn study show s --measured former.csv"),
+                     0);
+    expect_in(shell.out, "measured in former.csv: 3 launches\nmuzzle_speed is called exit_speed "
+                         "now\n");
+    expect_in(shell.out, "\nexit_speed [m/s]");
+    expect_complaint("printf 'muzzle_speed [m/s],exit_speed [m/s]\n38,38\n' >twice.csv; "
+                     "launchdyn study show s --measured twice.csv",
+                     2, "exit_speed: is given in an earlier column, too");
+    // a linear response and its scatter of the exit
+    static const char *const what[] = {"-w %s.vz", "--exit -w %s.yaw_rate"};
+    for (int i = 0; i < 2; i++) {
+        char line[128], part[64];
+        for (int former = 0; former < 2; former++) {
+            snprintf(part, sizeof part, what[i], former ? "aim" : "since_ignition");
+            snprintf(line, sizeof line, "launchdyn response examples/reference.yaml --from 1 %s",
+                     part);
+            assert_int_equal(run(line), 0);
+            if (!former)
+                snprintf(now, sizeof now, "%s", shell.out);
+        }
+        assert_string_equal(shell.out, now);
+        expect_in(shell.err, "is called since_ignition.");
+    }
+    // scenarios are refused, with the name of now
+    expect_complaint("launchdyn check examples/salvo.yaml --set "
+                     "'scatter.until={muzzle_speed.mean: 1 %}'",
+                     2, "did you mean \"exit_speed.mean\"?");
 }
 
 static void test_study_sensitivity_and_ellipses(void **state)
 {
     (void)state;
     // one factor explains all that is linear in it
-    assert_int_equal(run("launchdyn study show s --json --sensitivity --what muzzle_speed | jq -r "
+    assert_int_equal(run("launchdyn study show s --json --sensitivity --what exit_speed | jq -r "
                          "'.points[0].results[0].factors[] | .path, .share.value'"),
                      0);
     char path[64];
@@ -495,21 +535,21 @@ static void test_study_normality(void **state)
                          "8 of 20\n");
 }
 
-// Shots that were measured in other units than SI: what JSON has of them, from the two means.
+// Launches that were measured in other units than SI: what JSON has of them, from the two means.
 static void test_study_measured(void **state)
 {
     (void)state;
     double value[SAMPLES], mean = column_of("t_rear", value), found[6];
-    assert_int_equal(run("printf 't_rear [ms]\\n150\\n152\\n154\\n160\\n' >shots.csv; "
-                         "launchdyn study show s --measured shots.csv --json >a.json; "
-                         "jq -r '.shots, .salvos, (.points[0].comparisons[0] | "
+    assert_int_equal(run("printf 't_rear [ms]\\n150\\n152\\n154\\n160\\n' >launches.csv; "
+                         "launchdyn study show s --measured launches.csv --json >a.json; "
+                         "jq -r '.launches, .salvos, (.points[0].comparisons[0] | "
                          ".measured.mean.value, .simulated.mean.value, .difference.value, "
                          ".difference.chance)' a.json"),
                      0);
     assert_int_equal(sscanf(shell.out, "%lf %lf %lf %lf %lf %lf", &found[0], &found[1], &found[2],
                             &found[3], &found[4], &found[5]),
                      6);
-    CHECK_NEAR("shots", found[0], 4, 0);
+    CHECK_NEAR("launches", found[0], 4, 0);
     CHECK_NEAR("salvos", found[1], 0, 0);
     CHECK_NEAR("their mean [s]", found[2], 0.154, 1e-15);
     CHECK_NEAR("that of the study [s]", found[3], mean, 1e-15);
@@ -517,10 +557,10 @@ static void test_study_measured(void **state)
     // the table has the same p, and the ratio of the deviations
     char chance[32], table[64];
     snprintf(chance, sizeof chance, " %.*g", found[5] < 0.1 ? 2 : 3, found[5]);
-    assert_int_equal(run("launchdyn study show s --measured shots.csv | grep '^t_rear'"), 0);
+    assert_int_equal(run("launchdyn study show s --measured launches.csv | grep '^t_rear'"), 0);
     expect_in(shell.out, chance);
     assert_int_equal(run("jq -r '.points[0].comparisons[0] | .name, .unit, .ratio.value' a.json; "
-                         "launchdyn study show s --measured shots.csv | grep '^    deviation'"),
+                         "launchdyn study show s --measured launches.csv | grep '^    deviation'"),
                      0);
     assert_int_equal(sscanf(shell.out, "t_rear s %lf", &found[0]), 1);
     snprintf(table, sizeof table, " x %.4g [", found[0]);
@@ -564,6 +604,7 @@ int main(void)
         cmocka_unit_test(test_modes),
         cmocka_unit_test(test_study),
         cmocka_unit_test(test_study_near_the_vertical),
+        cmocka_unit_test(test_former_names),
         cmocka_unit_test(test_study_sensitivity_and_ellipses),
         cmocka_unit_test(test_study_footprints),
         cmocka_unit_test(test_study_normality),

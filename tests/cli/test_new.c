@@ -18,7 +18,7 @@ static void one(const char *guide, const char *base, double least, double most)
     assert_int_equal(run("launchdyn run --strict a.yaml -q --out out"), 0);
     assert_string_equal(shell.err, "");
     assert_int_equal(run("jq -r '.complete, (.notes | length), .rockets[0].tip_off.pitch_rate, "
-                         ".rockets[0].flight.apogee, .rockets[0].muzzle_speed' out/summary.json"),
+                         ".rockets[0].flight.apogee, .rockets[0].exit_speed' out/summary.json"),
                      0);
     int notes;
     double rate, apogee, speed;

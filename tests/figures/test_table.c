@@ -243,7 +243,7 @@ static void test_both_get_all_figures(void **state)
     free(json);
 }
 
-// Each has its line in the table of docs/command.md.
+// Each has its line in the list of docs/command.md.
 static void test_all_are_described(void **state)
 {
     (void)state;
@@ -253,7 +253,7 @@ static void test_all_are_described(void **state)
     assert_int_equal(
         text_file_read(LD_SOURCE_DIR "/docs/command.md", 1 << 20, &text, &length, NULL), LD_OK);
     for (size_t f = 0; (figure = plot_figure_at(f)) != NULL; f++) {
-        snprintf(line, sizeof line, "\n| `%s` | ", figure->about.name);
+        snprintf(line, sizeof line, "\n- `%s`: ", figure->about.name);
         if (!strstr(text, line))
             fail_msg("docs/command.md does not describe %s", figure->about.name);
     }

@@ -142,7 +142,7 @@ static bool same(double a, double b)
 
 enum { EXIT_FIGURES = 4 };
 static const char *const exit_figures[EXIT_FIGURES] = {"summary.rocket.1.t_rear",
-                                                       "summary.rocket.1.muzzle_speed",
+                                                       "summary.rocket.1.exit_speed",
                                                        "summary.rocket.1.yaw_rate", "rocket.s"};
 static double recorded[EXIT_FIGURES];
 

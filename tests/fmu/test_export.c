@@ -101,7 +101,7 @@ static const char *const outputs[] = {"rocket.s",
                                       "energy.kinetic",
                                       "wrench.moment.z",
                                       "summary.rocket.1.t_release",
-                                      "summary.rocket.1.muzzle_speed"};
+                                      "summary.rocket.1.exit_speed"};
 enum { OUTPUTS = sizeof outputs / sizeof *outputs };
 
 static bool same(double a, double b)

@@ -783,7 +783,7 @@ static void carries_our_launcher(void **state)
                                    {.name = "rocket.1.pitch_rate", .bound = 1e-6},
                                    {.name = "rocket.1.tip_off.pitch", .bound = 5e-6},
                                    {.name = "rocket.1.tip_off.yaw", .bound = 1e-4},
-                                   {.name = "rocket.1.muzzle_speed", .bound = 2e-9}};
+                                   {.name = "rocket.1.exit_speed", .bound = 2e-9}};
     enum { MOTIONS = sizeof of / sizeof *of, FIGURES = sizeof figure / sizeof *figure };
     assert_int_equal(run("printf '%s\\n' 'include: examples/mujoco/launcher.yaml' "
                          "'base: {kind: external}' >external.yaml"),
@@ -831,7 +831,7 @@ static void carries_it_as_a_base(void **state)
                                          {.name = "rocket.1.pitch_rate", .bound = 2e-5},
                                          {.name = "rocket.1.tip_off.pitch", .bound = 1e-7},
                                          {.name = "rocket.1.tip_off.yaw", .bound = 2e-4},
-                                         {.name = "rocket.1.muzzle_speed", .bound = 2e-8}};
+                                         {.name = "rocket.1.exit_speed", .bound = 2e-8}};
     static const char *const column[] = {"base.x", "base.y", "base.z", "base.pitch"};
     launch foreign = launch_of("examples/mujoco/launch.yaml", "base.file=" PACKED),
            own = launch_of("examples/mujoco/own-vehicle.yaml", NULL);

@@ -199,7 +199,7 @@ static void show(void)
     ld_error error = {0};
     ld_origin origin;
     FILE *stream = open_memstream(&text, &length);
-    ld_study_view view = {.what = "muzzle_speed"};
+    ld_study_view view = {.what = "exit_speed"};
     must_say(ld_study_show(in_memory("study"), &view, stream, &error), &error);
     view.sensitivity = true;
     must_say(ld_study_show(in_memory("study"), &view, stream, &error), &error);

@@ -54,7 +54,7 @@ class TestLeaks(Case):
             read["rocket.mass"] = 61
             result = read.run()
             str(result), read.to_yaml()
-            return result["tip.y"].sum() + result.summary["rocket.1.muzzle_speed"]
+            return result["tip.y"].sum() + result.summary["rocket.1.exit_speed"]
         self.assertLess(self.grows(work, 60), 100)
 
     def test_steps(self):
@@ -84,7 +84,7 @@ class TestLeaks(Case):
 
         def work():
             with study.run(self.folder / "study") as data:
-                data.statistics("muzzle_speed")
+                data.statistics("exit_speed")
         self.assertLess(self.grows(work, 60), 100)  # each on a thread with caches of its own
 
     def test_an_array_keeps_its_memory_and_no_more(self):

@@ -82,15 +82,15 @@ class TestPlot(Case):
     def test_studies(self):
         data = ld.Study.of(scattered(4, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
             self.folder / "study")
-        axes = data.plot("muzzle_speed", over="rocket.mass")
+        axes = data.plot("exit_speed", over="rocket.mass")
         self.assertEqual([len(line.get_xdata()) for line in axes.lines], [4, 4])
         for point, line in enumerate(axes.lines, 1):
             np.testing.assert_array_equal(
-                line.get_ydata(), data.values("muzzle_speed", point=point)["muzzle_speed"])
+                line.get_ydata(), data.values("exit_speed", point=point)["exit_speed"])
         self.assertEqual(axes.get_legend().get_texts()[1].get_text(), "base.elevation 20 deg")
-        opaque = data.plot("muzzle_speed", over="rocket.mass", alpha=1)
+        opaque = data.plot("exit_speed", over="rocket.mass", alpha=1)
         self.assertEqual(opaque.lines[0].get_alpha(), 1)
-        histograms = data.plot("muzzle_speed", "pitch_rate")
+        histograms = data.plot("exit_speed", "pitch_rate")
         self.assertNotEqual(*(axes.get_xlim() for axes in histograms))
         self.assertEqual(sum(bar.get_height() for bar in histograms[0].patches), 8)
 

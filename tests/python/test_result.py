@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import unittest
+import warnings
 from unittest import mock
 
 import launchdyn as ld
@@ -36,7 +37,7 @@ class TestBits(Case):
     def test_a_launch(self):
         result, summary = self.compare("fixed.yaml", "run.end=tip")
         rocket = summary["rockets"][0]
-        self.assertEqual(result.summary["rocket.1.muzzle_speed"], rocket["muzzle_speed"])
+        self.assertEqual(result.summary["rocket.1.exit_speed"], rocket["exit_speed"])
         self.assertGreater(len(result["t"]), 1000)
         self.assertEqual(len(result.history), len(result.history.columns))
 
@@ -119,11 +120,8 @@ class TestResult(Case):
 
     def test_names_that_are_not_there(self):
         for get, name, near in ((self.result.__getitem__, "tip.yy", "tip.y"),
-                                (self.result.summary.__getitem__, "rocket.1.muzle_speed",
-                                 "rocket.1.muzzle_speed"),
-                                (self.result.__getitem__, "aim.yaw", "since_ignition.yaw"),
-                                (self.result.summary.__getitem__, "rocket.1.aim.vy",
-                                 "rocket.1.since_ignition.vy"),
+                                (self.result.summary.__getitem__, "rocket.1.exit_sped",
+                                 "rocket.1.exit_speed"),
                                 (self.result.__getitem__, "nothing of the kind", None)):
             with self.assertRaises(ld.UnknownName) as caught:
                 get(name)
@@ -133,12 +131,26 @@ class TestResult(Case):
         self.assertNotIn("nothing", self.result.summary)
         self.assertIn("tip.y", self.result.history)
 
+    def test_former_names_are_told(self):
+        summary = self.result.summary
+        with self.assertWarnsRegex(FutureWarning, '"aim.yaw" is called "since_ignition.yaw"'):
+            np.testing.assert_array_equal(self.result["aim.yaw"],
+                                          self.result["since_ignition.yaw"])
+        with self.assertWarnsRegex(FutureWarning, 'is called "rocket.1.exit_speed" now'):
+            self.assertEqual(summary["rocket.1.muzzle_speed"], summary["rocket.1.exit_speed"])
+        with ld.Scenario.read(FIXED).begin() as run:
+            with self.assertWarns(FutureWarning):
+                self.assertEqual(run["aim.vy"], run["since_ignition.vy"])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.result["since_ignition.yaw"]
+
     def test_summary_is_a_mapping(self):
         summary = self.result.summary
         self.assertEqual(set(summary), set(summary.quantities))
         for name, quantity in summary.quantities.items():
             np.testing.assert_equal(summary[name], quantity.value)
-        self.assertEqual(summary.quantities["rocket.1.muzzle_speed"].unit, "m/s")
+        self.assertEqual(summary.quantities["rocket.1.exit_speed"].unit, "m/s")
         self.assertAlmostEqual(summary["mode.1.frequency"],
                                ld.Scenario.read(FIXED).simulation().tube_modes()[0].frequency)
 

@@ -235,7 +235,7 @@ class TestExternalBase(Case):
                 if not run.finished:
                     run.tell_base(resting_frame())
             told = run.end()
-        for name in ("pitch_rate", "yaw_rate", "muzzle_speed"):
+        for name in ("pitch_rate", "yaw_rate", "exit_speed"):
             apart = told.summary[f"rocket.1.{name}"] - fixed.summary[f"rocket.1.{name}"]
             self.assertLess(abs(apart), 2e-5, name)  # within the tolerance of 1e-5
 

@@ -141,11 +141,11 @@ run: {end: tip}
         read = ld.Scenario.read(FIXED)
         result = read.run()
         other = read.derive({"rocket.mass": 70})
-        before = result.summary["rocket.1.muzzle_speed"]
+        before = result.summary["rocket.1.exit_speed"]
         read["rocket.mass"] = 50
-        self.assertEqual(result.summary["rocket.1.muzzle_speed"], before)
+        self.assertEqual(result.summary["rocket.1.exit_speed"], before)
         self.assertEqual((other["rocket.mass"], read["rocket.mass"]), (70, 50))
-        speeds = [s.run().summary["rocket.1.muzzle_speed"] for s in (other, read)]
+        speeds = [s.run().summary["rocket.1.exit_speed"] for s in (other, read)]
         self.assertLess(speeds[0], before)
         self.assertGreater(speeds[1], before)
 
@@ -162,7 +162,7 @@ run: {end: tip}
             result = read.run()
         with self.assertRaisesRegex(ValueError, "closed"):
             read["rocket.mass"]
-        self.assertGreater(result.summary["rocket.1.muzzle_speed"], 30)
+        self.assertGreater(result.summary["rocket.1.exit_speed"], 30)
         self.assertIn("exit speed", str(result))
 
     def test_keys(self):

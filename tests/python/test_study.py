@@ -43,20 +43,20 @@ class TestStudy(Case):
             head, *rows = csv.reader(file)
         with ld.Study.read(scenario) as study:
             data = study.run(self.folder / "package", threads=2)
-        values = data.values("muzzle_speed", "pitch_rate", "rocket.mass")
+        values = data.values("exit_speed", "pitch_rate", "rocket.mass")
         np.testing.assert_array_equal(values["sample"], np.arange(1, 7))
         np.testing.assert_array_equal(values["rocket"], 1)
-        for name in ("muzzle_speed", "pitch_rate", "rocket.mass"):
+        for name in ("exit_speed", "pitch_rate", "rocket.mass"):
             column = next(i for i, text in enumerate(head) if text.split(" [")[0] == name)
             np.testing.assert_array_equal(values[name], [float(row[column]) for row in rows], name)
-        self.assertEqual(data.show("muzzle_speed"),
+        self.assertEqual(data.show("exit_speed"),
                          command("study", "show", self.folder / "command", "--what",
-                                 "muzzle_speed"))
+                                 "exit_speed"))
 
     def test_statistics_are_of_the_values(self):
         data = ld.Study.of(scattered(8)).run(self.folder / "study")
-        speed, mass = data["muzzle_speed"], data["rocket.mass"]
-        found = data.statistics("muzzle_speed")
+        speed, mass = data["exit_speed"], data["rocket.mass"]
+        found = data.statistics("exit_speed")
         self.assertEqual((found.count, found.groups), (8, 8))
         self.assertAlmostEqual(found.mean.value, speed.mean(), 12)
         self.assertAlmostEqual(found.deviation.value, speed.std(ddof=1), 12)
@@ -68,12 +68,12 @@ class TestStudy(Case):
         self.assertAlmostEqual(found.skewness, cubes * 56 ** 0.5 / 6, 9)  # of eight, without bias
         self.assertLess(found.mean.low, found.mean.value)
         self.assertLess(np.corrcoef(mass, speed)[0, 1], -0.99)
-        self.assertGreater(data.sensitivity("muzzle_speed", "rocket.mass").value, 0.98)
+        self.assertGreater(data.sensitivity("exit_speed", "rocket.mass").value, 0.98)
         self.assertEqual(data.factors, ["rocket.mass"])
         self.assertEqual(data.columns["rocket.mass"].unit, "kg")
-        self.assertTrue(data.columns["muzzle_speed"].per_rocket)
-        self.assertFalse(data.columns["muzzle_speed"].seed)
-        self.assertIn("muzzle_speed", data.results)
+        self.assertTrue(data.columns["exit_speed"].per_rocket)
+        self.assertFalse(data.columns["exit_speed"].seed)
+        self.assertIn("exit_speed", data.results)
         self.assertIn("8 of 8 samples", data._repr_html_())
         self.assertIn("points 1, samples 8 of 8", repr(data))
 
@@ -83,10 +83,10 @@ class TestStudy(Case):
             self.assertEqual(data.swept, ["rocket.mass"])
             self.assertEqual([point.values for point in data.points],
                              [{"rocket.mass": "58 kg"}, {"rocket.mass": "62 kg"}])
-            speeds = [data.values("muzzle_speed", point=i)["muzzle_speed"][0] for i in (1, 2)]
+            speeds = [data.values("exit_speed", point=i)["exit_speed"][0] for i in (1, 2)]
             self.assertGreater(*speeds)
             with self.assertRaises(ld.InputError):
-                data.values("muzzle_speed", point=3)
+                data.values("exit_speed", point=3)
 
     @needs("pandas")
     def test_a_data_frame(self):
@@ -95,15 +95,15 @@ class TestStudy(Case):
             frame = data.to_pandas()
             self.assertEqual(list(frame), ["base.elevation", "sample", "rocket", *data.columns])
             for point, (_, part) in enumerate(frame.groupby("base.elevation"), 1):
-                values = data.values("muzzle_speed", "rocket.mass", point=point)
+                values = data.values("exit_speed", "rocket.mass", point=point)
                 for name, expected in values.items():
                     np.testing.assert_array_equal(part[name], expected, name)
             self.assertTrue(frame["range"].isna().all())  # they fly no further than the tip
             self.assertEqual(frame.attrs["units"]["rocket.mass"], "kg")
-            few = data.to_pandas("range", "muzzle_speed")
-            np.testing.assert_array_equal(few["muzzle_speed"], frame["muzzle_speed"])
+            few = data.to_pandas("range", "exit_speed")
+            np.testing.assert_array_equal(few["exit_speed"], frame["exit_speed"])
             with self.assertRaises(ld.UnknownName):
-                data.to_pandas("muzle_speed")
+                data.to_pandas("exit_sped")
 
     @needs("xarray")
     def test_a_data_set(self):
@@ -115,25 +115,25 @@ class TestStudy(Case):
         with ld.Study.of(swept).run(self.folder / "study") as data:
             failed = data.points[0].failed
             self.assertEqual(failed, 2)  # the lock holds them
-            whole, few = data.to_xarray(), data.to_xarray("muzzle_speed")
-            self.assertEqual((list(whole), list(few)), (list(data.columns), ["muzzle_speed"]))
+            whole, few = data.to_xarray(), data.to_xarray("exit_speed")
+            self.assertEqual((list(whole), list(few)), (list(data.columns), ["exit_speed"]))
             self.assertEqual(list(whole["rocket.mass"].values), ["58 kg", "62 kg"])
             for point in (1, 2):
-                at, values = whole.sel(point=point), data.values("muzzle_speed", "base.elevation",
+                at, values = whole.sel(point=point), data.values("exit_speed", "base.elevation",
                                                                  point=point)
                 went = at["number"].isin(values["sample"])
                 self.assertEqual(went.sum(), 5 - failed)
-                for name, dims in (("muzzle_speed", ("sample", "rocket")),
+                for name, dims in (("exit_speed", ("sample", "rocket")),
                                    ("base.elevation", ("sample",))):
                     self.assertEqual(at[name].dims, dims)
                     np.testing.assert_array_equal(at[name][went].values.ravel(), values[name])
                     self.assertTrue(at[name][~went].isnull().all())
             lock = whole["rocket.lock.release_force"]
             np.testing.assert_array_equal(lock.sel(point=1), lock.sel(point=2))  # the same draws
-            self.assertEqual(few["muzzle_speed"].attrs, {"units": "m/s"})
+            self.assertEqual(few["exit_speed"].attrs, {"units": "m/s"})
             self.assertTrue(whole["range"].isnull().all())  # they fly no further than the tip
             with self.assertRaises(ld.UnknownName):
-                data.to_xarray("muzle_speed")
+                data.to_xarray("exit_sped")
 
     def test_interrupted_it_goes_on(self):
         samples = ld.Study.of(flights(40))
@@ -202,16 +202,16 @@ class TestStudy(Case):
     def test_points_beside_each_other(self):
         with ld.Study.of(scattered(6, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
                 self.folder / "study") as data:
-            shots = self.folder / "shots.csv"
-            shots.write_text("muzzle_speed [m/s]\n38.1\n37.9\n38.0\n")
-            self.assertEqual(data.show(measured=shots),
-                             command("study", "show", data.folder, "--measured", shots))
+            launches = self.folder / "launches.csv"
+            launches.write_text("exit_speed [m/s]\n38.1\n37.9\n38.0\n")
+            self.assertEqual(data.show(measured=launches),
+                             command("study", "show", data.folder, "--measured", launches))
             for words in ({"against": "1"}, {"sensitivity": True}, {}):
                 options = [word for name, value in words.items()
                            for word in (f"--{name}", value) if value is not True] or \
                     [f"--{name}" for name in words]
-                self.assertEqual(data.show("muzzle_speed", **words),
-                                 command("study", "show", data.folder, "--what", "muzzle_speed",
+                self.assertEqual(data.show("exit_speed", **words),
+                                 command("study", "show", data.folder, "--what", "exit_speed",
                                          *options))
 
     def test_errors(self):
@@ -225,15 +225,15 @@ class TestStudy(Case):
             ld.Study.read(FIXED).run(self.folder / "nothing varies")
         data = ld.Study.of(scattered(2)).run(self.folder / "study")
         with self.assertRaises(ld.UnknownName) as caught:
-            data["muzle_speed"]
-        self.assertEqual(caught.exception.suggestion, "muzzle_speed")
+            data["exit_sped"]
+        self.assertEqual(caught.exception.suggestion, "exit_speed")
         with self.assertRaises(ld.UnknownName):
-            data.show("muzle_speed")
+            data.show("exit_sped")
         with self.assertRaisesRegex(ld.InputError, "."):
             ld.Study.of(scattered(2, **{"rocket.mass": 70})).run(self.folder / "study")
         data.close()
         with self.assertRaisesRegex(ValueError, "closed"):
-            data["muzzle_speed"]
+            data["exit_speed"]
 
     def test_footprints(self):
         data = ld.Study.read(EXAMPLES / "range-safety.yaml", {"scatter.samples": 200}).run(

@@ -122,7 +122,7 @@ async function checkAnswer(page, run) {
     "Spin at the exit": rocket.spin_rate, "From release to exit": 1e3 * (rocket.t_rear - rocket.t_release), "Largest contact force": 1e-3 * force,
     "Moved most": 1e3 * Math.max(way(["tip.y", "tip.z"]), way(["rocket.y", "rocket.z"])) };
   const wrong = Object.entries(wanted).filter(([name, value]) => !near(parseFloat(said[name]?.[0]), value, 6e-3));
-  check("the answer says what the results do, in three digits", near(headline, rocket.muzzle_speed, 6e-3) && wrong.length === 0 &&
+  check("the answer says what the results do, in three digits", near(headline, rocket.exit_speed, 6e-3) && wrong.length === 0 &&
     Object.values(said).every(([text]) => (text.match(/[1-9][0-9.]*/)?.[0] ?? "").replace(".", "").length <= 4), JSON.stringify(said));
   check("with the part of the largest force, and the unit", said["Largest contact force"][1] === part && said["Largest contact force"][0].endsWith("kN") &&
     said["Moved most"][0].endsWith("mm"), part);

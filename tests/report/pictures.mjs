@@ -42,7 +42,7 @@ async function severalRuns(browser) {
   await take(browser, "report-runs.png", page, { width: 1200, height: 545, top: "#launch-relative", under: "#launch-relative .u-over" });
 }
 
-// 10 000 flights with sensitivities; salvos at three speeds; shots beside two studies.
+// 10 000 flights with sensitivities; salvos at three speeds; launches beside two studies.
 async function studies(browser) {
   const flight = join(folder, "flight-scattered.yaml");
   writeFileSync(flight, `include: ${example("flight.yaml")}
@@ -61,7 +61,7 @@ scatter:
   const salvo = studyOf("salvo", example("salvo.yaml"));
   const same = studyOf("same", example("measured.yaml"), "scatter.seed=2026", "scatter.samples=10");
   const from = process.cwd();
-  process.chdir(example(".")); // the page says where the shots lie
+  process.chdir(example(".")); // the page says where the launches lie
   const measured = reportOf("measured.html", salvo, same, "--measured", "measured.csv");
   process.chdir(from);
   await take(browser, "report-measured.png", measured, { width: 1280, height: 1100, top: "#measured" });

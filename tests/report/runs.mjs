@@ -54,7 +54,7 @@ async function checkOver(browser, runs) {
   check("the key stands in the table", values.join() === "0.0002 m,0.0003 m,0.0005 m", values);
   const speeds = await cellsOf(page, "exit speed, along the tube");
   check("summaries stand side by side", speeds.length === 4 && runs.every(({ summary }, i) =>
-    near(Number(speeds[i]), summary.rockets[0].muzzle_speed, 1e-5)), speeds);
+    near(Number(speeds[i]), summary.rockets[0].exit_speed, 1e-5)), speeds);
   const measured = await cellsOf(page, "bound");
   check("measures, too, with their unit", measured.at(-1) === "rad/s" && runs.every(({ summary }, i) =>
     near(Number(measured[i]), summary.rockets[0].measure.bound, 1e-5)), measured);

@@ -184,7 +184,7 @@ async function checkSweep(browser) {
   const page = await open(browser, reportOf("sweep.html", { out }), { width: 1400 });
   const rows = await page.$$eval(".answer tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
   const column = rows[0].indexOf("Exit speed, along the tube [m/s]"), speeds = masses.map((mass) =>
-    JSON.parse(launchdyn("run", example("fixed.yaml"), "--set", `rocket.mass=${mass} kg`, "--json")).rockets[0].muzzle_speed);
+    JSON.parse(launchdyn("run", example("fixed.yaml"), "--set", `rocket.mass=${mass} kg`, "--json")).rockets[0].exit_speed);
   check("each point has a row with its values", rows.length === 4 && column > 0 && speeds.every((speed, i) => near(Number(rows[i + 1][column]), speed, 2e-4)), JSON.stringify(rows));
   check("not called means", (await page.textContent(".answer h3")) === "Results");
   await leave(page);
@@ -298,17 +298,17 @@ async function checkColumns(browser, studies) {
   await leave(page);
 }
 
-// Shots beside two studies: a row of dots for each side, and what the table says of the mean.
+// Launches beside two studies: a row of dots for each side, and what the table says of the mean.
 async function checkMeasured(browser, [slow, fast]) {
-  console.log("measured shots");
-  const shots = join(folder, "shots.csv"), downrange = slow.column.get("downrange"), file = join(folder, "measured.html");
-  writeFileSync(shots, `downrange [km],apogee [m]\n${downrange.filter((_, i) => i % 3 === 0).map((v) => `${v / 1000},`).join("\n")}\n,900\n`);
-  launchdyn("report", slow.out, fast.out, "--measured", shots, "-o", file);
+  console.log("measured launches");
+  const launches = join(folder, "launches.csv"), downrange = slow.column.get("downrange"), file = join(folder, "measured.html");
+  writeFileSync(launches, `downrange [km],apogee [m]\n${downrange.filter((_, i) => i % 3 === 0).map((v) => `${v / 1000},`).join("\n")}\n,900\n`);
+  launchdyn("report", slow.out, fast.out, "--measured", launches, "-o", file);
   const page = await open(browser, file), title = "Downrange: measured and simulated";
   const rows = await page.$$eval("#measured + section tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
   const [, , mean] = rows, stars = [mean[7], mean[10]].map((text) => text.endsWith("*"));
   check("the fast study has a star, the slow one none", mean[0] === "Downrange" && !stars[0] && stars[1], mean);
-  const single = rows.at(-1); // one shot has no deviation
+  const single = rows.at(-1); // one launch has no deviation
   check("a dash for what cannot be stated", [4, 6, 7, 9, 10].every((i) => single[i] === "–"), single);
   const dots = await page.$$eval(`${panel(title)} .points`, (list) => list.map((node) => node.getAttribute("d").split("M").length - 1));
   check("dots of three sides", dots.length === 3 && dots[0] === 50 && dots[1] > 100, dots);

@@ -190,7 +190,7 @@ static void test_numbers_are_those_of_the_results(void **state)
     CHECK_WITHIN("bytes of the page", (double)strlen(page), (double)report.bytes,
                  (double)report.bytes);
     assert_int_equal(report.note_count, 0);
-    assert_non_null(strstr(page, "\"muzzle_speed\":37.700000000000003"));
+    assert_non_null(strstr(page, "\"exit_speed\":37.700000000000003"));
     assert_non_null(strstr(page, "\"release\":0.0033335999999999999"));
     free(page);
 }
@@ -462,7 +462,7 @@ static void test_what_is_missing_is_said(void **state)
     page = read_all(in("report.html"));
     expect_note(&report, "No plots: history.h5 is damaged: it has 100000 bytes");
     assert_non_null(strstr(page, "\"tables\":[]"));
-    assert_non_null(strstr(page, "\"muzzle_speed\""));
+    assert_non_null(strstr(page, "\"exit_speed\""));
     free(page);
 
     assert_int_equal(run("cd %s && rm history.h5"), 0);

@@ -25,7 +25,7 @@ static int results;
 
 static bool asked_for(const char *name)
 {
-    static const char *const asked[] = {"muzzle_speed", "pitch", "yaw", "downrange", "drift"};
+    static const char *const asked[] = {"exit_speed", "pitch", "yaw", "downrange", "drift"};
     for (size_t i = 0; i < sizeof asked / sizeof *asked; i++)
         if (strcmp(name, asked[i]) == 0)
             return true;
@@ -364,14 +364,14 @@ static double first_number(const char *place, const char *key)
     return number;
 }
 
-// Shots that are every tenth value, 0.3 mrad higher: differences, ratios and p are those of
+// Launches that are every tenth value, 0.3 mrad higher: differences, ratios and p are those of
 // agreement_of(), and of what is not a study's nothing is written.
 static void test_measured(void **state)
 {
     (void)state;
-    enum { SHOTS = VALUES / 10 };
-    double shot[SHOTS], value[VALUES], read[3];
-    int64_t shot_group[SHOTS], group[VALUES];
+    enum { LAUNCHES = VALUES / 10 };
+    double launch[LAUNCHES], value[VALUES], read[3];
+    int64_t launch_group[LAUNCHES], group[VALUES];
     make_study("study", "Made up", SAMPLES, "");
     FILE *file = fopen(in("<svg onload=alert(1)>.csv"), "w");
     fputs("pitch [mrad]\n", file);
@@ -380,22 +380,22 @@ static void test_measured(void **state)
         group[i] = i / 2;
         if (i % 10 == 0) {
             fprintf(file, "%.17g\n", 1e3 * value[i] + 0.3);
-            shot[i / 10] = value[i] + 3e-4;
-            shot_group[i / 10] = i;
+            launch[i / 10] = value[i] + 3e-4;
+            launch_group[i / 10] = i;
         }
     }
     fclose(file);
     ld_error error;
     const char *study = in("study");
-    char shots[128];
-    snprintf(shots, sizeof shots, "%s", in("<svg onload=alert(1)>.csv"));
-    assert_int_equal(ld_report_write_measured(&study, 1, shots, in("report.html"), NULL, &error),
+    char launches[128];
+    snprintf(launches, sizeof launches, "%s", in("<svg onload=alert(1)>.csv"));
+    assert_int_equal(ld_report_write_measured(&study, 1, launches, in("report.html"), NULL, &error),
                      LD_OK);
     char *page = read_page(in("report.html"));
     const char *series =
         after(after(after(page, "\"measured\":{\"file\":"), "\"own\":"), "\"series\":[");
     agreement by;
-    assert_int_equal(agreement_of((grouped_values){shot, shot_group, SHOTS},
+    assert_int_equal(agreement_of((grouped_values){launch, launch_group, LAUNCHES},
                                   (grouped_values){value, group, VALUES}, &by),
                      LD_OK);
     read_numbers(after(series, "\"difference\":"), read, 3);
@@ -410,10 +410,10 @@ static void test_measured(void **state)
     page = report_one("study", NULL);
     assert_non_null(strstr(page, "\"measured\":null"));
     free(page);
-    file = fopen(shots, "w");
+    file = fopen(launches, "w");
     fputs("pitch [mrad]\n1\nx\n", file);
     fclose(file);
-    assert_int_equal(ld_report_write_measured(&study, 1, shots, in("report.html"), NULL, &error),
+    assert_int_equal(ld_report_write_measured(&study, 1, launches, in("report.html"), NULL, &error),
                      LD_ERR_INPUT);
     assert_non_null(strstr(error.text, ".csv:3:1: pitch: found \"x\"; expected a number"));
 }

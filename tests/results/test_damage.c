@@ -353,9 +353,9 @@ static void test_earlier_version(void **state)
     (void)state;
     expect_report(EARLIER, LD_OK, "",
                   "The files cannot be verified: summary.json is of an earlier");
-    expect_report(EARLIER " && sed -i 's/\"muzzle_speed\": [0-9]/\"muzzle_speed\": \"/; "
-                          "s/\\(\"muzzle_speed\": \"[^,]*\\),/\\1\",/' run/summary.json",
-                  LD_ERR_INPUT, "\"rockets[0].muzzle_speed\" is not a number", "No summary");
+    expect_report(EARLIER " && sed -i 's/\"exit_speed\": [0-9]/\"exit_speed\": \"/; "
+                          "s/\\(\"exit_speed\": \"[^,]*\\),/\\1\",/' run/summary.json",
+                  LD_ERR_INPUT, "\"rockets[0].exit_speed\" is not a number", "No summary");
     expect_report(EARLIER " && jq 'del(.rockets)' run/summary.json >x && mv x run/summary.json",
                   LD_ERR_INPUT, "\"rockets\" is missing, or something else", "No summary");
     expect_report(EARLIER " && printf 'x' >>run/summary.json", LD_ERR_INPUT, "malformed JSON",

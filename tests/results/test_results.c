@@ -256,7 +256,7 @@ static void test_summary_is_json(void **state)
          "LAPACK,BLAS,HDF5,SQLite,libyaml,zlib"},
         {".source|tostring", "null"}, // filled by hand
         {".rockets[0]|keys_unsorted|join(\",\")",
-         "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,muzzle_speed,inertial_speed,"
+         "tube,t_ignition,t_release,t_front,t_middle,t_rear,t_exit,exit_speed,inertial_speed,"
          "spin_rate,since_ignition,tip_off,pitch,yaw,pitch_rate,yaw_rate,exit,relative,tip,"
          "exit_error,max_contact_force,max_slot_force,energy_dropped"},
         {".rockets[0].exit|tostring",
@@ -344,9 +344,9 @@ static void test_numbers_keep_17_digits(void **state)
     place *here = *state;
     ld_summary summary;
     made_summary(&summary, 1);
-    summary.rocket[0].muzzle_speed = 0.1 + 0.2;
+    summary.rocket[0].exit_speed = 0.1 + 0.2;
     assert_int_equal(ld_summary_write(in(here, "s.json"), &here->model, &summary, NULL), LD_OK);
-    printed_by("grep -q 'muzzle_speed\": 0.30000000000000004,' %s", in(here, "s.json"));
+    printed_by("grep -q 'exit_speed\": 0.30000000000000004,' %s", in(here, "s.json"));
 }
 
 static void test_terminal_table(void **state)

@@ -196,7 +196,7 @@ static void say(column_book *book, const char *at, const saying *says, size_t co
 
 // Both in summary.json and among the results of a study.
 static const saying at_exit[] = {
-    {"muzzle_speed", "rocket.s_dot"},
+    {"exit_speed", "rocket.s_dot"},
     {"spin_rate", "rocket.spin"},
     {"pitch", "rocket.pitch"},
     {"yaw", "rocket.yaw"},
@@ -714,7 +714,7 @@ static const struct {
     {"front adaptor leaves", {"rockets.0.t_front"}},
     {"middle adaptor leaves", {"rockets.0.t_middle"}},
     {"rear adaptor leaves", {"rockets.0.t_rear"}},
-    {"exit speed", {"rockets.0.muzzle_speed"}},
+    {"exit speed", {"rockets.0.exit_speed"}},
     {"inertial speed", {"rockets.0.inertial_speed"}},
     {"spin rate", {"rockets.0.spin_rate"}},
     {"since ignition, angles", {"rockets.0.since_ignition.pitch", "rockets.0.since_ignition.yaw"}},

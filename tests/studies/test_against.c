@@ -328,7 +328,7 @@ static void test_common_numbers(void **state)
             assert_true(pairs.value[0][0] != pairs.value[0][5]);
         }
     }
-    const study_column *speed = study_data_find(&data, "muzzle_speed", &nearest);
+    const study_column *speed = study_data_find(&data, "exit_speed", &nearest);
     against_read_pairs(&(paired_points){&data, &data.point[2], &data.point[0]}, &speed, 1, values,
                        &pairs, &error);
     for (int i = 0; i < 6; i++)

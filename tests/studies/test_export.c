@@ -17,7 +17,7 @@
     "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT, reason TEXT,"    \
     "  \"base.elevation\" REAL);"                                                                  \
     "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"                           \
-    "  \"rocket.mass_error\" REAL, t_rear REAL, muzzle_speed REAL, PRIMARY KEY (sample, rocket))"  \
+    "  \"rocket.mass_error\" REAL, t_rear REAL, exit_speed REAL, PRIMARY KEY (sample, rocket))"    \
     "  WITHOUT ROWID;"                                                                             \
     "INSERT INTO sample VALUES (1, 1, 'ok', NULL, 0.5), (2, 2, 'ok', NULL, 0.5),"                  \
     "  (3, 1, 'launch', 'the lock held', 0.25), (4, 2, 'ok', NULL, 0.25),"                         \
@@ -53,7 +53,7 @@ static void test_csv(void **state)
     (void)state;
     static const char expected[] =
         "sample,rocket,tube,status,point,base.speed,firing.order,base.elevation,"
-        "rocket.mass_error,t_rear,muzzle_speed\n"
+        "rocket.mass_error,t_rear,exit_speed\n"
         "1,1,2,ok,1,0 km/h,\"[2, \"\"1\"\"]\",0.5,0.75,0.125,38\n"
         "1,2,1,ok,1,0 km/h,\"[2, \"\"1\"\"]\",0.5,-0.5,0.25,36\n"
         "2,1,1,ok,2,15 km/h,\"[1, 2]\",0.5,0.75,0.10000000000000001,39\n"
@@ -106,7 +106,7 @@ static void test_hdf5(void **state)
     read_column(file, "rockets/sample", H5T_NATIVE_INT64, sample);
     read_column(file, "rockets/tube", H5T_NATIVE_INT64, tube);
     read_column(file, "rockets/point", H5T_NATIVE_INT64, point);
-    read_column(file, "rockets/muzzle_speed", H5T_NATIVE_DOUBLE, speed);
+    read_column(file, "rockets/exit_speed", H5T_NATIVE_DOUBLE, speed);
     read_column(file, "rockets/base.elevation", H5T_NATIVE_DOUBLE, elevation);
     hid_t text = H5Tcopy(H5T_C_S1);
     H5Tset_size(text, sizeof *status);
@@ -117,7 +117,7 @@ static void test_hdf5(void **state)
     assert_true(elevation[6] == 0.25 && elevation[7] == 0.25 && isnan(speed[11]));
     assert_string_equal(status[5], "launch");
     assert_string_equal(status[6], "ok");
-    expect_attribute(file, "rockets/muzzle_speed", "unit", "m/s");
+    expect_attribute(file, "rockets/exit_speed", "unit", "m/s");
     expect_attribute(file, ".", "scenario", "include: fixed.yaml");
     char order[2][16];
     text = H5Tcopy(H5T_C_S1);
@@ -266,14 +266,14 @@ static void test_show(void **state)
                       "5 rockets, 3 independent groups");
     // means of all rockets: (0.125 + 0.25 + 2 0.1875)/4 and (38 + 36 + 37 + 37)/4
     expect_part(text, "\nt_rear [s]                 0.1875 +- 0 ");
-    expect_part(text, "\nmuzzle_speed [m/s]         37 +- 0 ");
+    expect_part(text, "\nexit_speed [m/s]           37 +- 0 ");
     expect_part(text, "\nbase.speed                 0 km/h                 15 km/h");
     for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
         assert_true(strcspn(line, "\n") <= 120);
     assert_null(strstr(text, "t_front"));
     free(text);
 
-    text = shown(&(ld_study_view){.what = "muzzle_speed,rocket.mass_error"});
+    text = shown(&(ld_study_view){.what = "exit_speed,rocket.mass_error"});
     assert_null(strstr(text, "t_rear"));
     expect_part(text, "rocket.mass_error");
     free(text);
@@ -283,10 +283,10 @@ static void test_show(void **state)
     free(text);
 
     ld_error error;
-    ld_study_view wrong = {.what = "t_rear,muzle_speed"};
+    ld_study_view wrong = {.what = "t_rear,exit_sped"};
     assert_int_equal(ld_study_show(in("sweep"), &wrong, stdout, &error), LD_ERR_INPUT);
     assert_string_equal(error.text,
-                        "the study has no result \"muzle_speed\"; did you mean \"muzzle_speed\"?");
+                        "the study has no result \"exit_sped\"; did you mean \"exit_speed\"?");
 }
 
 #define TABLES(points)                                                                             \

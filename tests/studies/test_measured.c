@@ -1,4 +1,4 @@
-// Measured shots beside a study: the test of agreement against published and independent numbers
+// Measured launches beside a study: the test of agreement against published and independent numbers
 // and by how often it is wrong, the file with what may be wrong in it, and the table.
 #include "support/study_run.h"
 
@@ -109,8 +109,8 @@ static void test_how_often(void **state)
 {
     (void)state;
     static const made_case made[] = {
-        {"20 shots, 60 rockets, alike", {20, 60}, {1, 1}, 0, 0, 1, {3, 7}, {3, 7}},
-        {"54 shots, 10 of 18, alike", {54, 10}, {1, 18}, 0, 0, 1, {3, 7}, {3, 7}},
+        {"20 launches, 60 rockets, alike", {20, 60}, {1, 1}, 0, 0, 1, {3, 7}, {3, 7}},
+        {"54 launches, 10 of 18, alike", {54, 10}, {1, 18}, 0, 0, 1, {3, 7}, {3, 7}},
         {"5 of 18, 10 of 18 that share a third, alike",
          {5, 10},
          {18, 18},
@@ -119,7 +119,7 @@ static void test_how_often(void **state)
          1,
          {3, 7},
          {3, 9}},
-        {"54 shots, 10 of 18, half a deviation apart",
+        {"54 launches, 10 of 18, half a deviation apart",
          {54, 10},
          {1, 18},
          0,
@@ -127,7 +127,14 @@ static void test_how_often(void **state)
          1,
          {83, 95},
          {3, 7}},
-        {"54 shots, 10 of 18, half as much again", {54, 10}, {1, 18}, 0, 0, 1.5, {3, 7}, {83, 95}},
+        {"54 launches, 10 of 18, half as much again",
+         {54, 10},
+         {1, 18},
+         0,
+         0,
+         1.5,
+         {3, 7},
+         {83, 95}},
     };
     for (size_t k = 0; k < sizeof made / sizeof *made; k++) {
         static double value[2][MOST];
@@ -181,7 +188,7 @@ static int end_study(void **state)
 static const char *shots_file(const char *text, size_t length)
 {
     static char name[200];
-    snprintf(name, sizeof name, "%s", in("shots.csv"));
+    snprintf(name, sizeof name, "%s", in("launches.csv"));
     FILE *stream = fopen(name, "wb");
     assert_non_null(stream);
     assert_int_equal(fwrite(text, 1, length, stream), length);
@@ -193,46 +200,46 @@ static void test_file(void **state)
 {
     (void)state;
     static const char text[] = "\xef\xbb\xbf# measured by hand\r\n"
-                               "t_rear [ms] , salvo,muzzle_speed [km/h],pitch [deg]\r\n"
+                               "t_rear [ms] , salvo,exit_speed [km/h],pitch [deg]\r\n"
                                "160.5,2,137,\r\n\r\n"
                                "161,1,,\r\n"
                                "# the third was not timed\n"
                                ",1,136.8,19.5\n"
                                "1.625e2,2,137.16,19";
-    measured shots;
+    measured launches;
     ld_error error;
-    ld_status status = measured_read(shots_file(text, sizeof text - 1), &data, &shots, &error);
+    ld_status status = measured_read(shots_file(text, sizeof text - 1), &data, &launches, &error);
     if (status)
         fail_msg("%s", error.text);
-    assert_true(shots.shots == 4 && shots.salvos == 2 && shots.results == 3);
-    const measured_result *time = &shots.result[0], *speed = &shots.result[1];
+    assert_true(launches.count == 4 && launches.salvos == 2 && launches.results == 3);
+    const measured_result *time = &launches.result[0], *speed = &launches.result[1];
     assert_string_equal(time->name, "t_rear");
     assert_string_equal(time->unit, "ms");
     assert_true(time->count == 3 && time->value[0] == 0.161 && time->value[1] == 0.1605 &&
                 time->value[2] == 0.1625);
     assert_true(time->group[0] == 1 && time->group[1] == 2 && time->group[2] == 2);
     assert_true(speed->count == 3 && fabs(speed->value[0] - 38) < 1e-14);
-    assert_true(shots.result[2].count == 2);
-    measured_free(&shots);
-    // without salvos every shot stands for itself
-    static const char plain[] = "muzzle_speed [m/s]\n38\n37.9\n";
-    assert_int_equal(measured_read(shots_file(plain, sizeof plain - 1), &data, &shots, &error),
+    assert_true(launches.result[2].count == 2);
+    measured_free(&launches);
+    // without salvos every launch stands for itself
+    static const char plain[] = "exit_speed [m/s]\n38\n37.9\n";
+    assert_int_equal(measured_read(shots_file(plain, sizeof plain - 1), &data, &launches, &error),
                      LD_OK);
-    assert_true(shots.salvos == 0 && shots.result[0].group[0] != shots.result[0].group[1]);
-    measured_free(&shots);
+    assert_true(launches.salvos == 0 && launches.result[0].group[0] != launches.result[0].group[1]);
+    measured_free(&launches);
 }
 
 static void refuse(const char *text, const char *where, const char *why)
 {
-    measured shots;
+    measured launches;
     ld_error error;
     const char *file = shots_file(text, strlen(text));
     char expected[512];
     snprintf(expected, sizeof expected, "%s:%s: %s", file, where, why);
-    assert_int_equal(measured_read(file, &data, &shots, &error), LD_ERR_INPUT);
+    assert_int_equal(measured_read(file, &data, &launches, &error), LD_ERR_INPUT);
     if (!strstr(error.text, why) || strncmp(error.text, expected, strlen(expected)) != 0)
         fail_msg("\"%s\"\n    for \"%s\"\n    expected \"%s\"", error.text, text, expected);
-    assert_true(shots.results == 0 && !shots.result);
+    assert_true(launches.results == 0 && !launches.result);
 }
 
 static void test_wrong_files(void **state)
@@ -264,16 +271,17 @@ static void test_wrong_files(void **state)
     refuse("t_front [yr]\n1e305\n", "1:1", "t_front: found the unit \"yr\"");
     refuse("pitch [deg],salvo\n19,1.5\n", "2:4", "salvo: expected a whole number, below 1e9");
     refuse("pitch [deg],salvo\n19,\n", "2:4", "salvo: found \"\"; expected a number");
-    measured shots;
+    measured launches;
     ld_error error;
-    assert_int_equal(measured_read(shots_file("pitch [deg]\n1\0002\n", 16), &data, &shots, &error),
-                     LD_ERR_INPUT);
+    assert_int_equal(
+        measured_read(shots_file("pitch [deg]\n1\0002\n", 16), &data, &launches, &error),
+        LD_ERR_INPUT);
     assert_non_null(strstr(error.text, ":2:1: this line is not text, or is too long"));
     static const char empty[] = "salvo,pitch [deg],yaw [deg]\n1,,2\n2,,2\n";
-    assert_int_equal(measured_read(shots_file(empty, sizeof empty - 1), &data, &shots, &error),
+    assert_int_equal(measured_read(shots_file(empty, sizeof empty - 1), &data, &launches, &error),
                      LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "shots.csv: pitch: no launch has a value"));
-    assert_int_equal(measured_read(in("none.csv"), &data, &shots, &error), LD_ERR_INPUT);
+    assert_non_null(strstr(error.text, "launches.csv: pitch: no launch has a value"));
+    assert_int_equal(measured_read(in("none.csv"), &data, &launches, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "none.csv cannot be read: No such file"));
 }
 
@@ -301,16 +309,16 @@ static void test_table(void **state)
     const char *nearest;
     study_values values = {0};
     const study_column *column[] = {study_data_find(&data, "t_rear", &nearest),
-                                    study_data_find(&data, "muzzle_speed", &nearest)};
+                                    study_data_find(&data, "exit_speed", &nearest)};
     assert_int_equal(study_data_read(&data, data.point, column, 2, &values, &error), LD_OK);
     FILE *stream = open_memstream(&text, &length);
-    fputs("t_rear [ms],muzzle_speed [m/s],apogee [m]\n", stream);
+    fputs("t_rear [ms],exit_speed [m/s],apogee [m]\n", stream);
     for (size_t i = 0; i < values.count; i++)
         fprintf(stream, "%.17g,%.17g,1\n", 1e3 * values.value[0][i], 1.02 * values.value[1][i]);
     fclose(stream);
     char *table = shown(text);
     printf("%s", table);
-    assert_non_null(strstr(table, "shots.csv: 12 launches\n"));
+    assert_non_null(strstr(table, "launches.csv: 12 launches\n"));
     char expected[64];
     group_statistics s;
     assert_int_equal(statistics_of(values.value[0], values.group, values.count, &s), LD_OK);

@@ -215,8 +215,8 @@ static void test_one_sample_alone(void **state)
     assert_int_equal(ld_study_sample(study, 17, &sample, &error), LD_OK);
     assert_int_equal(ld_simulation_create(ld_sample_model(sample), &simulation, &error), LD_OK);
     assert_int_equal(ld_simulation_run(simulation, NULL, &summary, &error), LD_OK);
-    cell(csv, "muzzle_speed", 17, 1, kept);
-    snprintf(alone, sizeof alone, "%.17g", summary.rocket[0].muzzle_speed);
+    cell(csv, "exit_speed", 17, 1, kept);
+    snprintf(alone, sizeof alone, "%.17g", summary.rocket[0].exit_speed);
     assert_string_equal(alone, kept);
     cell(csv, "rocket.mass_error", 17, 1, kept);
     snprintf(alone, sizeof alone, "%.17g", ld_sample_model(sample)->rocket.mass_error);
@@ -450,7 +450,7 @@ static void test_rockets_of_a_salvo(void **state)
     ld_simulation_free(simulation);
     const ld_rocket_summary *a = &alone.rocket[0], *b = &salvo.rocket[1], *c = &salvo.rocket[0];
     CHECK_BELOW("t_rear in the salvo and alone [s]", a->t_rear - b->t_rear, 1e-9);
-    CHECK_BELOW("exit speed [m/s]", a->muzzle_speed - b->muzzle_speed, 1e-6);
+    CHECK_BELOW("exit speed [m/s]", a->exit_speed - b->exit_speed, 1e-6);
     CHECK_BELOW("yaw rate [rad/s]", a->yaw_rate - b->yaw_rate, 1e-6);
     CHECK_WITHIN("t_rear of the first rocket differs [s]", fabs(c->t_rear - b->t_rear), 1e-4, 0.1);
     ld_sample_free(sample);

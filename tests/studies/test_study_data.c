@@ -32,7 +32,7 @@ static void test_values(void **state)
                    "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT,"
                    "  reason TEXT, \"base.elevation\" REAL);"
                    "CREATE TABLE rocket (sample INTEGER, rocket INTEGER, tube INTEGER,"
-                   "  \"rocket.mass_error\" REAL, t_rear REAL, muzzle_speed REAL,"
+                   "  \"rocket.mass_error\" REAL, t_rear REAL, exit_speed REAL,"
                    "  PRIMARY KEY (sample, rocket)) WITHOUT ROWID;"
                    "INSERT INTO sample VALUES (4, 1, 'ok', NULL, 0.4), (1, 1, 'ok', NULL, 0.1),"
                    "  (3, 1, 'launch', 'the lock held', 0.3), (2, 1, 'ok', NULL, 0.2);"
@@ -44,14 +44,14 @@ static void test_values(void **state)
     assert_true(data.column_count == 4 && data.result_count == 2 && data.swept_count == 0);
     assert_true(data.point_count == 1 && data.strata == 2);
     assert_true(data.point[0].asked == 6 && data.point[0].done == 4 && data.point[0].failed == 1);
-    const study_column *speed = column(&data, "muzzle_speed"), *mass, *elevation;
+    const study_column *speed = column(&data, "exit_speed"), *mass, *elevation;
     assert_true(!speed->factor && speed->per_rocket && strcmp(speed->unit, "m/s") == 0);
     mass = column(&data, "rocket.mass_error");
     elevation = column(&data, "base.elevation");
     assert_true(mass->factor && mass->per_rocket && elevation->factor && !elevation->per_rocket);
     const char *nearest;
-    assert_null(study_data_find(&data, "muzle_speed", &nearest));
-    assert_string_equal(nearest, "muzzle_speed");
+    assert_null(study_data_find(&data, "exit_sped", &nearest));
+    assert_string_equal(nearest, "exit_speed");
 
     const study_column *three[] = {mass, column(&data, "t_rear"), elevation};
     study_values values = {0};

@@ -53,9 +53,9 @@ static void test_points(void **state)
     assert_int_equal(sweep.point_count, 6);
     assert_string_equal(sweep.point[4].text[0], "61 kg");
     assert_string_equal(sweep.point[4].text[1], "20 deg");
-    const study_column *columns[] = {study_data_find(&sweep, "muzzle_speed", &nearest)};
+    const study_column *columns[] = {study_data_find(&sweep, "exit_speed", &nearest)};
     assert_int_equal(study_data_read(&sweep, &sweep.point[4], columns, 1, &one, &error), LD_OK);
-    columns[0] = study_data_find(&point, "muzzle_speed", &nearest);
+    columns[0] = study_data_find(&point, "exit_speed", &nearest);
     assert_int_equal(study_data_read(&point, &point.point[0], columns, 1, &other, &error), LD_OK);
     assert_true(one.count == 4 && other.count == 4);
     assert_memory_equal(one.value[0], other.value[0], 4 * sizeof(double));

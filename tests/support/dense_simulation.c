@@ -816,7 +816,7 @@ static void summarise(launch_run *launch, double t, const double *x,
     unpack(launch, x, &state);
     base_at(launch, t, x, &base);
     note_instant(launch, t, x, output, &summary->exit);
-    summary->muzzle_speed = output->s_dot;
+    summary->exit_speed = output->s_dot;
     summary->inertial_speed = norm_of(state.v_O1, 3);
     summary->spin_rate = state.w_B[0];
     // axis d = A e_x, d_dot = A (w x e_x)

@@ -17,7 +17,7 @@ typedef struct dense_instant {
 typedef struct dense_summary {
     double t_release, t_front, t_middle, t_rear; // [s] from ignition
     double t_exit[LD_MAX_ADAPTORS];
-    double muzzle_speed, inertial_speed, spin_rate, pitch, yaw, pitch_rate, yaw_rate;
+    double exit_speed, inertial_speed, spin_rate, pitch, yaw, pitch_rate, yaw_rate;
     struct {
         double y, z, psi, theta, gamma, w_x, w_y, w_z;
     } relative;

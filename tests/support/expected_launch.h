@@ -134,13 +134,13 @@ static inline void check_happens(const char *name, ld_model *model)
     listener ear = {0};
     outcome out;
     run(model, &ear, &out);
-    printf("    %s: exit speed %.4f m/s%s\n", name, out.summary.rocket[0].muzzle_speed,
+    printf("    %s: exit speed %.4f m/s%s\n", name, out.summary.rocket[0].exit_speed,
            out.status ? out.error.text : "");
     assert_int_equal(out.status, LD_OK);
     assert_true(out.summary.complete);
     assert_string_equal(out.summary.stopped, "");
     assert_true(ear.last == out.summary.t_end);
-    CHECK_WITHIN("exit speed [m/s]", out.summary.rocket[0].muzzle_speed, 37, 40);
+    CHECK_WITHIN("exit speed [m/s]", out.summary.rocket[0].exit_speed, 37, 40);
     CHECK_BELOW("acceleration at the start [m/s2, rad/s2]", out.summary.equilibrium.residual, 1e-5);
 }
 

@@ -200,7 +200,7 @@ void made_summary(ld_summary *summary, int middle)
         .t_middle = middle ? 0.1273 : NAN,
         .t_rear = 0.1604,
         .t_exit = {0.1604, middle ? 0.1273 : NAN, 0.0952},
-        .muzzle_speed = 37.7,
+        .exit_speed = 37.7,
         .inertial_speed = 37.75,
         .spin_rate = 31.9,
         .pitch = 0.3455,

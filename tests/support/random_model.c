@@ -537,7 +537,7 @@ static int run_random_model(int number, const ld_model *model)
     const ld_rocket_summary *rocket = &summary.rocket[0];
     if (model->run.end == LD_END_TIP) {
         assert_true(isfinite(rocket->t_rear) && isfinite(rocket->pitch_rate));
-        assert_true(rocket->muzzle_speed > 0);
+        assert_true(rocket->exit_speed > 0);
     }
     check_balance(model, &summary.energy);
     check_results(model, &summary);

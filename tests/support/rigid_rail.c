@@ -240,7 +240,7 @@ static void note_exit(const rail_run *run, double t, const body_state *x, rigid_
     v3 d = m3_column(A, 0), d_dot = m3_apply(A, v3_cross(x->w, v3_make(1, 0, 0)));
     double level = hypot(d.x, d.z);
     exit->t_rear = t;
-    exit->muzzle_speed = v3_dot(e, slip);
+    exit->exit_speed = v3_dot(e, slip);
     exit->pitch = atan2(d.y, level);
     exit->yaw = atan2(-d.z, d.x);
     exit->pitch_rate = d_dot.y / level;

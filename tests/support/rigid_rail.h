@@ -10,8 +10,8 @@
 #include "launchdyn/model.h"
 
 typedef struct rigid_exit {
-    double t_release, t_front, t_rear;                                // [s] from ignition
-    double muzzle_speed, pitch, yaw, pitch_rate, yaw_rate, spin_rate; // as ld_rocket_summary
+    double t_release, t_front, t_rear;                              // [s] from ignition
+    double exit_speed, pitch, yaw, pitch_rate, yaw_rate, spin_rate; // as ld_rocket_summary
     double front_force[2], rear_force[2]; // [N] on the rocket along the rail's y and z, just before
                                           // the front shoe leaves
     double pivot_force[2];                // [N] of the rear shoe just after

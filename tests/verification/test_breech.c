@@ -33,9 +33,9 @@ static void starts_at_the_rear_end(void **state)
         double lead_in = i % 2 ? 0.1 : 0;
         ld_summary at = launch(0, lead_in, i > 1), beyond = launch(1e-9, lead_in, i > 1);
         printf("  %s base, lead-in %g s: %.6f m/s\n", i > 1 ? "moving" : "fixed", lead_in,
-               at.rocket[0].muzzle_speed);
+               at.rocket[0].exit_speed);
         CHECK_BELOW("t_rear [s]", at.rocket[0].t_rear - beyond.rocket[0].t_rear, 2e-10);
-        CHECK_BELOW("exit speed [m/s]", at.rocket[0].muzzle_speed - beyond.rocket[0].muzzle_speed,
+        CHECK_BELOW("exit speed [m/s]", at.rocket[0].exit_speed - beyond.rocket[0].exit_speed,
                     5e-8);
         CHECK_BELOW("pitch rate [rad/s]", at.rocket[0].pitch_rate - beyond.rocket[0].pitch_rate,
                     1e-7);
@@ -50,8 +50,7 @@ static void starts_at_the_tip(void **state)
     ld_summary at = launch(1.1, 0, false), before = launch(1.1 - 1e-9, 0, false);
     ld_summary inside = launch(1.1 - 1e-5, 0, false);
     assert_true(isnan(at.rocket[0].t_front) && isnan(before.rocket[0].t_front));
-    CHECK_BELOW("exit speed [m/s]", at.rocket[0].muzzle_speed - before.rocket[0].muzzle_speed,
-                5e-8);
+    CHECK_BELOW("exit speed [m/s]", at.rocket[0].exit_speed - before.rocket[0].exit_speed, 5e-8);
     CHECK_WITHIN("ten micrometres before it: out after [ms]", 1e3 * inside.rocket[0].t_front, 3.8,
                  6);
 }

@@ -37,16 +37,16 @@ static void limit_of_little_propellant(void **state)
         "rocket.empty={mass: 59.999 kg, center: 1.1 0 0 m, inertia: 0.22 24 24 kg.m2}", TIGHT};
     static const char *const little[] = {
         "rocket.empty={mass: 59.9999 kg, center: 1.1 0 0 m, inertia: 0.22 24 24 kg.m2}", TIGHT};
-    double speed = run_of(left_out, 3, &none).muzzle_speed;
-    assert_true(run_of(equal, 3, &same).muzzle_speed == speed);
+    double speed = run_of(left_out, 3, &none).exit_speed;
+    assert_true(run_of(equal, 3, &same).exit_speed == speed);
     // an acceleration that grows by the share b from start to exit adds b/3 to the speed over the
     // same way, less where the thrust has to build up first
-    double change = (run_of(one, 3, &gramme).muzzle_speed - speed) / speed;
+    double change = (run_of(one, 3, &gramme).exit_speed - speed) / speed;
     double burnt = none.rocket[0].t_rear / 2.53;
     printf("    exit speed %.9f m/s, a gramme changes it by %.3g\n", speed, change);
     CHECK_WITHIN("of a gramme, over a third of its burnt share", change / (burnt / 3 * 1e-3 / 60),
                  0.97, 1);
-    double less = (run_of(little, 3, &tenth).muzzle_speed - speed) / speed;
+    double less = (run_of(little, 3, &tenth).exit_speed - speed) / speed;
     CHECK_WITHIN("of a tenth of a gramme, over that of a gramme", less / change, 0.099, 0.101);
     assert_true(none.energy.work[POWER_MASS_CHANGE] == 0);
     CHECK_BELOW("energy balance, relative", none.energy.residual_relative, 2e-13);

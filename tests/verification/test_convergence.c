@@ -21,20 +21,20 @@ static ld_summary launch(const ld_model *model)
 }
 
 // What a user reads, and how far two launches differ in it.
-typedef struct muzzle {
+typedef struct exit_change {
     double instant;  // [s] largest of t_release, t_front, t_middle, t_rear
     double speed;    // [m/s] exit speed
     double rates[3]; // [rad/s] pitch rate, yaw rate, spin
     double angle;    // [rad] pitch, yaw
-} muzzle;
+} exit_change;
 
-static muzzle difference(const ld_summary *a, const ld_summary *b)
+static exit_change difference(const ld_summary *a, const ld_summary *b)
 {
     const ld_rocket_summary *p = &a->rocket[0], *q = &b->rocket[0];
-    muzzle d = {.speed = fabs(p->muzzle_speed - q->muzzle_speed),
-                .rates = {fabs(p->pitch_rate - q->pitch_rate), fabs(p->yaw_rate - q->yaw_rate),
-                          fabs(p->spin_rate - q->spin_rate)},
-                .angle = fmax(fabs(p->pitch - q->pitch), fabs(p->yaw - q->yaw))};
+    exit_change d = {.speed = fabs(p->exit_speed - q->exit_speed),
+                     .rates = {fabs(p->pitch_rate - q->pitch_rate), fabs(p->yaw_rate - q->yaw_rate),
+                               fabs(p->spin_rate - q->spin_rate)},
+                     .angle = fmax(fabs(p->pitch - q->pitch), fabs(p->yaw - q->yaw))};
     d.instant = fmax(fmax(fabs(p->t_release - q->t_release), fabs(p->t_front - q->t_front)),
                      fmax(fabs(p->t_middle - q->t_middle), fabs(p->t_rear - q->t_rear)));
     return d;
@@ -52,7 +52,7 @@ static void print_head(const char *what)
            what);
 }
 
-static void print_row(const char *what, int steps, const muzzle *d)
+static void print_row(const char *what, int steps, const exit_change *d)
 {
     printf("  %-18s   %9.1e    %9.1e   %9.1e %9.1e %9.1e %9.1e  %d steps\n", what, d->instant,
            d->speed, d->rates[0], d->rates[1], d->rates[2], d->angle, steps);
@@ -66,14 +66,14 @@ static const struct {
              {LD_SPAN_FREE_FREE, "free-free"}};
 
 // One row for each span: the greatest of the three differences from `truth`.
-static muzzle compare_spans(ld_model *model, const ld_summary *truth)
+static exit_change compare_spans(ld_model *model, const ld_summary *truth)
 {
-    muzzle worst = {0};
+    exit_change worst = {0};
     for (int i = 0; i < 3; i++) {
         char name[32];
         model->tubes.modes.span = spans[i].span;
         ld_summary summary = launch(model);
-        muzzle d = difference(&summary, truth);
+        exit_change d = difference(&summary, truth);
         snprintf(name, sizeof name, "%s %d, %d", spans[i].name, model->tubes.modes.bending,
                  model->tubes.modes.torsion);
         print_row(name, (int)summary.statistics.steps, &d);
@@ -102,7 +102,7 @@ static void spans_converge_in_bending(void **state)
     print_head("span, bending, torsion");
     for (int k = 0; k < 5; k++) {
         model.tubes.modes.bending = modes[k];
-        muzzle worst = compare_spans(&model, &truth);
+        exit_change worst = compare_spans(&model, &truth);
         CHECK_BELOW("instants [s]", worst.instant, instant[k]);
         CHECK_BELOW("exit speed [m/s]", worst.speed, speed[k]);
         CHECK_BELOW("pitch rate [rad/s]", worst.rates[0], rate[k]);
@@ -158,7 +158,7 @@ static void spans_converge_in_torsion(void **state)
     print_head("span, bending, torsion");
     for (int k = 0; k < 4; k++) {
         model.tubes.modes.torsion = modes[k];
-        muzzle worst = compare_spans(&model, &truth);
+        exit_change worst = compare_spans(&model, &truth);
         CHECK_BELOW("spin [rad/s]", worst.rates[2], spin[k]);
     }
     reference_model_free(&model);
@@ -191,7 +191,7 @@ static void defaults_are_converged(void **state)
         fine.tubes.modes.elements = 160;
         fine.run.tolerance = 1e-8;
         ld_summary truth = launch(&fine);
-        muzzle d = difference(&usual, &truth);
+        exit_change d = difference(&usual, &truth);
         print_row(names[i], (int)usual.statistics.steps, &d);
         CHECK_BELOW("instants [s]", d.instant, 4e-8);
         CHECK_BELOW("exit speed [m/s]", d.speed, 1e-5);
@@ -226,9 +226,9 @@ static double middle(double a, double b, double c)
 }
 
 // What one sequence of steps leaves is chance: the middle one of three.
-static muzzle typical_difference(ld_model *model, double tolerance, const ld_summary *truth)
+static exit_change typical_difference(ld_model *model, double tolerance, const ld_summary *truth)
 {
-    muzzle d[3], typical;
+    exit_change d[3], typical;
     for (int k = 0; k < 3; k++) {
         model->run.tolerance = tolerance * (1 - 0.1 * k);
         ld_summary summary = launch(model);
@@ -249,7 +249,7 @@ static void check_tolerances(ld_model *model, const tolerance_bounds *bound)
     print_head("tolerance");
     for (int i = 0; i < TOLERANCES; i++) {
         char name[32];
-        muzzle d = typical_difference(model, tolerances[i], &truth);
+        exit_change d = typical_difference(model, tolerances[i], &truth);
         model->run.tolerance = tolerances[i];
         snprintf(name, sizeof name, "%.0e", tolerances[i]);
         print_row(name, (int)launch(model).statistics.steps, &d);

@@ -21,7 +21,7 @@ static void print_summary(const dense_summary *s)
 {
     printf("    release %.9f front %.9f middle %.9f rear %.9f, %d evaluations, drift %.1e\n",
            s->t_release, s->t_front, s->t_middle, s->t_rear, s->evaluations, s->slot_drift);
-    printf("    muzzle %.9f inertial %.9f spin %.9f\n", s->muzzle_speed, s->inertial_speed,
+    printf("    exit %.9f inertial %.9f spin %.9f\n", s->exit_speed, s->inertial_speed,
            s->spin_rate);
     printf("    pitch %.9f yaw %.9f rates %.9f %.9f\n", s->pitch, s->yaw, s->pitch_rate,
            s->yaw_rate);
@@ -53,7 +53,7 @@ static void check_same(const dense_summary *a, const dense_summary *b, double in
     CHECK_BELOW("t_front [s]", a->t_front - b->t_front, instants);
     CHECK_BELOW("t_middle [s]", a->t_middle - b->t_middle, instants);
     CHECK_BELOW("t_rear [s]", a->t_rear - b->t_rear, instants);
-    CHECK_BELOW("exit speed [m/s]", a->muzzle_speed - b->muzzle_speed, speed);
+    CHECK_BELOW("exit speed [m/s]", a->exit_speed - b->exit_speed, speed);
     CHECK_BELOW("pitch rate [rad/s]", a->pitch_rate - b->pitch_rate, rates);
     CHECK_BELOW("yaw rate [rad/s]", a->yaw_rate - b->yaw_rate, rates);
     CHECK_BELOW("relative pitching [rad/s]", a->relative.w_z - b->relative.w_z, rates);
@@ -121,7 +121,7 @@ static void smooth_rigid_bore_follows_the_rocket_equation(void **state)
     double burnt = 15e3 * (0.005 + summary.t_rear - 0.01);
     double m_release = 60 - k * 0.5 * 5e3 * t_release, m = 60 - k * burnt;
     CHECK_NEAR("release [s]", summary.t_release, t_release, 1e-12);
-    CHECK_NEAR("exit speed [m/s]", summary.muzzle_speed, log(m_release / m) / k, 1e-8);
+    CHECK_NEAR("exit speed [m/s]", summary.exit_speed, log(m_release / m) / k, 1e-8);
     // way: Simpson's rule over the ramp's rest and the plateau
     double way = 0, corner[3] = {t_release, 0.01, summary.t_rear};
     for (int part = 0; part < 2; part++)

@@ -18,8 +18,8 @@
 static const double quarter = 1.5707963267948966;
 
 static const char *const names[] = {
-    "t_rear",     "muzzle_speed", "pitch",         "pitch_rate",
-    "tip_off.vy", "tip.y",        "tip_off.pitch", "tip_off.pitch_rate_relative",
+    "t_rear",     "exit_speed", "pitch",         "pitch_rate",
+    "tip_off.vy", "tip.y",      "tip_off.pitch", "tip_off.pitch_rate_relative",
 };
 enum { FIGURES = sizeof names / sizeof *names, SPEED = 5 };
 
@@ -129,8 +129,8 @@ static void draws_find_what_patterns_find(void **state)
 // ---- a rough road
 
 static const char *const rough_names[] = {
-    "t_release", "t_rear",        "muzzle_speed", "pitch",      "yaw",       "pitch_rate",
-    "yaw_rate",  "tip_off.pitch", "tip_off.yaw",  "tip_off.vy", "tip_off.vz"};
+    "t_release", "t_rear",        "exit_speed",  "pitch",      "yaw",       "pitch_rate",
+    "yaw_rate",  "tip_off.pitch", "tip_off.yaw", "tip_off.vy", "tip_off.vz"};
 enum { ROUGH = sizeof rough_names / sizeof *rough_names, ROUGH_DRAWS = 6 };
 
 static void make_rough(ld_model *model)

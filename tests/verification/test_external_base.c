@@ -223,7 +223,7 @@ static void the_error_falls_with_the_step(void **state)
 static double worst(const ld_summary *a, const ld_summary *b)
 {
     const ld_rocket_summary *p = &a->rocket[0], *q = &b->rocket[0];
-    double speed = fabs(p->muzzle_speed - q->muzzle_speed) / q->muzzle_speed;
+    double speed = fabs(p->exit_speed - q->exit_speed) / q->exit_speed;
     double instant = fabs(p->t_rear - q->t_rear) / q->t_rear;
     return fmax(fmax(speed, instant), difference(a, b));
 }

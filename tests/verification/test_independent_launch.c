@@ -279,7 +279,7 @@ static void compare(const ld_model *model, const ld_summary *summary, const dens
         CHECK_BELOW("release [s]", rocket->t_release - dense->t_release, bound->instant);
     CHECK_BELOW("front, middle, rear [s]", largest(3, &rocket->t_front, &dense->t_front),
                 bound->instant);
-    CHECK_BELOW("exit speed [m/s]", rocket->muzzle_speed - dense->muzzle_speed, bound->speed);
+    CHECK_BELOW("exit speed [m/s]", rocket->exit_speed - dense->exit_speed, bound->speed);
     CHECK_BELOW("inertial speed [m/s]", rocket->inertial_speed - dense->inertial_speed,
                 bound->speed);
     CHECK_BELOW("pitch, yaw [rad]", largest(2, &rocket->pitch, &dense->pitch), bound->attitude);
@@ -322,7 +322,7 @@ static void run_scenario(void **state)
     assert_int_equal(flexible_tube_build(&tube, &model.tubes, &error), LD_OK);
     assert_true(dense_simulate(&model, &tube, s->step, &dense));
     printf("  %s: %.4f m/s, pitch rate %.4f rad/s (independent program, steps of %g us)\n", s->name,
-           dense.muzzle_speed, dense.pitch_rate, 1e6 * s->step);
+           dense.exit_speed, dense.pitch_rate, 1e6 * s->step);
     compare(&model, &summary, &dense, &s->bound);
     flexible_tube_free(&tube);
     ld_simulation_free(simulation);
@@ -350,7 +350,7 @@ static void overall_form_gives_the_same_launch(void **state)
     printf("  %s\n", summary[1].note[0]);
     CHECK_BELOW("instants [s]", largest(4, &overall->t_release, &reduced->t_release), 1e-9);
     CHECK_BELOW("speeds, spin, attitude, rates",
-                largest(7, &overall->muzzle_speed, &reduced->muzzle_speed), 1e-5);
+                largest(7, &overall->exit_speed, &reduced->exit_speed), 1e-5);
     CHECK_BELOW("rocket against tube", largest(8, &overall->relative.y, &reduced->relative.y),
                 3e-5);
     CHECK_BELOW("tip", largest(8, &overall->tip.y, &reduced->tip.y), 3e-5);

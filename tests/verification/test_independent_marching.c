@@ -16,12 +16,12 @@
 #include "support/reference_model.h"
 
 typedef struct bounds {
-    double place, speed, force;    // of the vehicle [m, rad], [m/s, rad/s], [N, N m]
-    double instant;                // [s]
-    double muzzle, attitude, rate; // of the rocket in I [m/s], [rad], [rad/s]
-    double against;                // [m], [rad] of rocket in tube and of the tip
-    double tip;                    // [m/s], [rad/s]
-    double contact;                // [-]
+    double place, speed, force;  // of the vehicle [m, rad], [m/s, rad/s], [N, N m]
+    double instant;              // [s]
+    double exit, attitude, rate; // of the rocket in I [m/s], [rad], [rad/s]
+    double against;              // [m], [rad] of rocket in tube and of the tip
+    double tip;                  // [m/s], [rad/s]
+    double contact;              // [-]
 } bounds;
 
 typedef struct scenario {
@@ -281,7 +281,7 @@ static void compare_rocket(const ld_rocket_summary *rocket, const dense_summary 
     CHECK_BELOW("release, front, middle, rear [s]",
                 largest(4, &rocket->t_release, &dense->t_release), bound->instant);
     CHECK_BELOW("exit speed, inertial speed [m/s]",
-                largest(2, &rocket->muzzle_speed, &dense->muzzle_speed), bound->muzzle);
+                largest(2, &rocket->exit_speed, &dense->exit_speed), bound->exit);
     CHECK_BELOW("pitch, yaw [rad]", largest(2, &rocket->pitch, &dense->pitch), bound->attitude);
     CHECK_BELOW("pitch and yaw rate, spin [rad/s]",
                 fmax(largest(2, &rocket->pitch_rate, &dense->pitch_rate),
@@ -323,7 +323,7 @@ static void run_scenario(void **state)
     assert_int_equal(flexible_tube_build(&tube, &model.tubes, &error), LD_OK);
     assert_true(dense_simulate(&model, &tube, 100e-6, &dense));
     printf("  %s: %.4f m/s, pitch rate %.4f rad/s, yaw rate %.4f rad/s\n", s->name,
-           dense.muzzle_speed, dense.pitch_rate, dense.yaw_rate);
+           dense.exit_speed, dense.pitch_rate, dense.yaw_rate);
     printf("    tyres down to %.0f N, suspensions up to %.1f mm, torques up to %.0f and %.0f N m\n",
            kept.least_tyre, 1e3 * kept.most_travel, kept.most_torque[0], kept.most_torque[1]);
     if (s->change == holes) { // it must go through what it is there for

@@ -193,7 +193,7 @@ static void test_on_the_launcher(void **state)
         rocket[i] = summary_of_run(&model).rocket[0];
         model_clear(&model);
     }
-    CHECK_NEAR("speed [m/s]", rocket[1].muzzle_speed, rocket[0].muzzle_speed, 1e-9);
+    CHECK_NEAR("speed [m/s]", rocket[1].exit_speed, rocket[0].exit_speed, 1e-9);
     for (int i = 0; i < 3; i++)
         CHECK_NEAR("rate [rad/s]", rocket[1].exit.rate[i], rocket[0].exit.rate[i], 5e-8);
 }

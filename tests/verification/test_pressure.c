@@ -81,7 +81,7 @@ static void check_two_bodies(const ld_model *model, const recorded_run *run, dou
     double v = sqrt(2 * W / mu), momentum = mu * v;
     CHECK_BELOW("work of the pressure, relative", run->summary.energy.work[POWER_PRESSURE] / W - 1,
                 1e-9);
-    CHECK_BELOW("speed in the tube, relative", rocket->muzzle_speed / v - 1, 1e-10);
+    CHECK_BELOW("speed in the tube, relative", rocket->exit_speed / v - 1, 1e-10);
     CHECK_BELOW("momentum of the slug, relative", m * rocket->inertial_speed / momentum - 1, 1e-10);
     CHECK_BELOW("momentum of the tube, relative", M * last_value(run, "tube.vx") / -momentum - 1,
                 1e-10);
@@ -104,8 +104,7 @@ static void gas_drives_slug_and_tube(void **state)
         model.run.formulation = i == 2 ? LD_FORMULATION_OVERALL : LD_FORMULATION_REDUCED;
         recorded_run_make(&run, &model);
         double way = 3 - model.rocket.start_at;
-        printf("  from %g m: %.6f m/s\n", model.rocket.start_at,
-               run.summary.rocket[0].muzzle_speed);
+        printf("  from %g m: %.6f m/s\n", model.rocket.start_at, run.summary.rocket[0].exit_speed);
         check_two_bodies(&model, &run, gas_work(&model, way));
         CHECK_BELOW("time in the tube, relative",
                     run.summary.rocket[0].t_rear / gas_time(&model, way) - 1, 1e-9);
@@ -142,7 +141,7 @@ static void tables_drive_slug_and_tube(void **state)
     ld_summary summary = summary_of_run(&model);
     double impulse = (8e-3 + 7.5e-3) * 1e6 * bore_area(&model);
     CHECK_BELOW("impulse, relative",
-                summary.rocket[0].muzzle_speed * reduced_mass(&model) / impulse - 1, 1e-10);
+                summary.rocket[0].exit_speed * reduced_mass(&model) / impulse - 1, 1e-10);
     reference_model_free(&model);
 }
 
@@ -280,7 +279,7 @@ static void rifling_gives_spin(void **state)
         recorded_run_make(&run, &model);
         const ld_rocket_summary *rocket = &run.summary.rocket[0];
         double radius = model.tubes.slot.radius;
-        double spin = i == 0 ? rocket->muzzle_speed * tan(0.1) / radius : 0;
+        double spin = i == 0 ? rocket->exit_speed * tan(0.1) / radius : 0;
         // what is left: the knob bends the tube, and the slot with it
         CHECK_BELOW("spin against the tube [rad/s]", rocket->relative.w_x - spin, 2e-3);
         CHECK_BELOW("mass [kg]", last_value(&run, "rocket.mass") - model.rocket.full.mass, 0);

@@ -131,7 +131,7 @@ static void launch(const ld_model *model, double figure[FIGURES])
     const ld_rocket_summary *r = &summary.rocket[0];
     printf("    %d steps, %.2f s\n", (int)summary.statistics.steps, summary.statistics.cpu_seconds);
     memcpy(figure,
-           (double[]){r->t_release, r->t_front, r->t_rear, r->muzzle_speed, r->pitch, r->yaw,
+           (double[]){r->t_release, r->t_front, r->t_rear, r->exit_speed, r->pitch, r->yaw,
                       r->pitch_rate, r->yaw_rate, r->spin_rate},
            FIGURES * sizeof *figure);
 }
@@ -153,16 +153,16 @@ static void pivots_about_its_rear_shoe(void **state)
     s->guide(&model);
     s->base(&model);
     assert_true(rigid_rail_launch(&model, model.tubes.guide.line, s->holds_roll, 2e-4, &exit));
-    const double limit[FIGURES] = {exit.t_release,    exit.t_front,  exit.t_rear,
-                                   exit.muzzle_speed, exit.pitch,    exit.yaw,
-                                   exit.pitch_rate,   exit.yaw_rate, exit.spin_rate};
+    const double limit[FIGURES] = {exit.t_release,  exit.t_front,  exit.t_rear,
+                                   exit.exit_speed, exit.pitch,    exit.yaw,
+                                   exit.pitch_rate, exit.yaw_rate, exit.spin_rate};
     stiffen(&model, 4e9);
     launch(&model, stiff);
     stiffen(&model, 8e9);
     launch(&model, stiffer);
     printf("  %s\n", s->name);
     double rate = hypot(exit.pitch_rate, exit.yaw_rate);
-    const double scale[FIGURES] = {exit.t_rear, exit.t_rear, exit.t_rear, exit.muzzle_speed, 1, 1,
+    const double scale[FIGURES] = {exit.t_rear, exit.t_rear, exit.t_rear, exit.exit_speed, 1, 1,
                                    rate,        rate,        rate};
     for (int i = 0; i < FIGURES; i++) {
         double off = (stiffer[i] - limit[i]) / scale[i], half = (stiff[i] - limit[i]) / scale[i];

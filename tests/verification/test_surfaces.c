@@ -589,7 +589,7 @@ static void rails_are_the_bore(void **state)
     CHECK_BELOW("pitch rate at the exit, relative",
                 left[1].rocket[0].pitch_rate / left[0].rocket[0].pitch_rate - 1, 1e-6);
     CHECK_BELOW("exit speed, relative",
-                left[1].rocket[0].muzzle_speed / left[0].rocket[0].muzzle_speed - 1, 1e-9);
+                left[1].rocket[0].exit_speed / left[0].rocket[0].exit_speed - 1, 1e-9);
     reference_model_free(&bore);
     reference_model_free(&rails);
 }

@@ -378,8 +378,8 @@ static void compare_knob(const launch *self, knob_rates *out)
     }
     out->fine_inside /= inside;
     out->modes_inside /= inside;
-    out->modes_at_exit = rocket->spin_rate - roll * rocket->muzzle_speed;
-    out->jump = loads.load[0].torque * rocket->muzzle_speed / tube->stiffness;
+    out->modes_at_exit = rocket->spin_rate - roll * rocket->exit_speed;
+    out->jump = loads.load[0].torque * rocket->exit_speed / tube->stiffness;
     free(tube);
 }
 

@@ -53,8 +53,8 @@ static exit_difference differ(const ld_summary *a, const ld_summary *b)
     const ld_rocket_summary *p = &a->rocket[0], *q = &b->rocket[0];
     return (exit_difference){
         .instant = fmax(fabs(p->t_release - q->t_release), fabs(p->t_rear - q->t_rear)),
-        .speed = fmax(fabs(p->muzzle_speed - q->muzzle_speed),
-                      fabs(p->inertial_speed - q->inertial_speed)),
+        .speed =
+            fmax(fabs(p->exit_speed - q->exit_speed), fabs(p->inertial_speed - q->inertial_speed)),
         .angle = fmax(fabs(p->pitch - q->pitch), fabs(p->yaw - q->yaw)),
         .rate = fmax(fmax(fabs(p->pitch_rate - q->pitch_rate), fabs(p->yaw_rate - q->yaw_rate)),
                      fabs(p->spin_rate - q->spin_rate))};

@@ -12,22 +12,22 @@
 enum { MOST_BYTES = 64 << 20, NO_RESULT = -1 };
 
 // A line of the file.
-typedef struct shot {
+typedef struct launch_row {
     int64_t salvo; // without such a column its number
     size_t number;
     double value[]; // [results] SI; NaN: not measured
-} shot;
+} launch_row;
 
-typedef struct shot_reader {
+typedef struct launch_reader {
     const char *file;
     const study_data *data;
-    measured *shots;
+    measured *launches;
     text_lines at;
     int columns, salvo;            // columns of the header, and the one of salvos, or NO_RESULT
     int result[TEXT_LINES_FIELDS]; // of each column, or NO_RESULT
-    shot **row;                    // [shots->shots]
+    launch_row **row;              // [launches->count]
     ld_error *error;
-} shot_reader;
+} launch_reader;
 
 static ld_status no_memory(ld_error *error)
 {
@@ -35,14 +35,14 @@ static ld_status no_memory(ld_error *error)
 }
 
 // "FILE:LINE:COLUMN: NAME: ..."
-static ld_status refuse(const shot_reader *self, int field, const char *name, const char *text)
+static ld_status refuse(const launch_reader *self, int field, const char *name, const char *text)
 {
     return ld_fail(self->error, LD_ERR_INPUT, "%.300s:%d:%d: %.*s%s%s", self->file, self->at.number,
                    text_lines_column(&self->at, field), MEASURED_NAME, name, name[0] ? ": " : "",
                    text);
 }
 
-static bool next_line(shot_reader *self)
+static bool next_line(launch_reader *self)
 {
     return text_lines_next(&self->at, '#', true);
 }
@@ -50,7 +50,7 @@ static bool next_line(shot_reader *self)
 // ---- the header
 
 // Takes the unit, what stands behind the name in brackets, of a result in SI unit `target`.
-static ld_status read_unit(const shot_reader *self, int field, measured_result *result,
+static ld_status read_unit(const launch_reader *self, int field, measured_result *result,
                            const char *target)
 {
     char text[256], unknown[32], quoted[64];
@@ -81,10 +81,10 @@ static const study_column *find_result(const study_data *data, const char *name,
 }
 
 // A column of the header: "name [unit]" or "salvo".
-static ld_status read_head(shot_reader *self, int field)
+static ld_status read_head(launch_reader *self, int field)
 {
-    measured *shots = self->shots;
-    measured_result *result = &shots->result[shots->results];
+    measured *launches = self->launches;
+    measured_result *result = &launches->result[launches->results];
     const char *text = self->at.field[field], *nearest = NULL;
     char message[256], quoted[64];
     int end = 0;
@@ -104,32 +104,36 @@ static ld_status read_head(shot_reader *self, int field)
                  nearest ? nearest : "", nearest ? "\"?" : "");
         return refuse(self, field, "", message);
     }
-    for (int i = 0; i < shots->results; i++)
-        if (strcmp(shots->result[i].name, result->name) == 0)
+    if (strcmp(column->name, result->name) != 0) {
+        memcpy(result->former, result->name, sizeof result->former);
+        snprintf(result->name, sizeof result->name, "%s", column->name);
+    }
+    for (int i = 0; i < launches->results; i++)
+        if (strcmp(launches->result[i].name, result->name) == 0)
             return refuse(self, field, result->name, "is given in an earlier column, too");
-    self->result[field] = shots->results++;
+    self->result[field] = launches->results++;
     return read_unit(self, field, result, column->unit);
 }
 
-static ld_status read_header(shot_reader *self)
+static ld_status read_header(launch_reader *self)
 {
     ld_status status = LD_OK;
     if (!next_line(self))
         return refuse(self, 0, "", self->at.wrong ? self->at.wrong : "the file is empty");
     self->columns = self->at.count;
-    self->shots->result = calloc((size_t)self->columns, sizeof *self->shots->result);
-    if (!self->shots->result)
+    self->launches->result = calloc((size_t)self->columns, sizeof *self->launches->result);
+    if (!self->launches->result)
         return no_memory(self->error);
     for (int i = 0; i < self->columns && !status; i++)
         status = read_head(self, i);
-    if (!status && self->shots->results == 0)
+    if (!status && self->launches->results == 0)
         status = refuse(self, 0, "", "names no result, such as \"t_front [ms]\"");
     return status;
 }
 
-// ---- the shots
+// ---- the launches
 
-static ld_status read_number(const shot_reader *self, int field, const char *name, double *value)
+static ld_status read_number(const launch_reader *self, int field, const char *name, double *value)
 {
     char message[256], quoted[64];
     const char *text = self->at.field[field], *reason, *end = number_parse(text, value, &reason);
@@ -141,7 +145,7 @@ static ld_status read_number(const shot_reader *self, int field, const char *nam
     return refuse(self, field, name, message);
 }
 
-static ld_status read_field(const shot_reader *self, int field, shot *row)
+static ld_status read_field(const launch_reader *self, int field, launch_row *row)
 {
     int index = self->result[field];
     const char *text = self->at.field[field];
@@ -153,7 +157,7 @@ static ld_status read_field(const shot_reader *self, int field, shot *row)
             return refuse(self, field, "salvo", "expected a whole number, below 1e9");
         return status;
     }
-    const measured_result *result = &self->shots->result[index];
+    const measured_result *result = &self->launches->result[index];
     ld_status status = text[0] ? read_number(self, field, result->name, &value) : LD_OK;
     row->value[index] = units_scale(value, result->factor);
     if (!status && isinf(row->value[index]))
@@ -161,9 +165,9 @@ static ld_status read_field(const shot_reader *self, int field, shot *row)
     return status;
 }
 
-static ld_status read_shot(shot_reader *self)
+static ld_status read_launch(launch_reader *self)
 {
-    measured *shots = self->shots;
+    measured *launches = self->launches;
     char message[96];
     if (self->at.count != self->columns) {
         snprintf(message, sizeof message, "found %d fields; expected %d, as in the header",
@@ -171,19 +175,19 @@ static ld_status read_shot(shot_reader *self)
         return refuse(self, 0, "", message);
     }
     // room is doubled at each power of two
-    if ((shots->shots & (shots->shots - 1)) == 0) {
-        size_t room = shots->shots ? 2 * shots->shots : 1;
-        shot **larger = realloc(self->row, room * sizeof(shot *));
+    if ((launches->count & (launches->count - 1)) == 0) {
+        size_t room = launches->count ? 2 * launches->count : 1;
+        launch_row **larger = realloc(self->row, room * sizeof(launch_row *));
         if (!larger)
             return no_memory(self->error);
         self->row = larger;
     }
-    shot *row = calloc(1, sizeof *row + (size_t)shots->results * sizeof(double));
+    launch_row *row = calloc(1, sizeof *row + (size_t)launches->results * sizeof(double));
     if (!row)
         return no_memory(self->error);
-    self->row[shots->shots] = row;
-    row->salvo = (int64_t)shots->shots;
-    row->number = shots->shots++;
+    self->row[launches->count] = row;
+    row->salvo = (int64_t)launches->count;
+    row->number = launches->count++;
     ld_status status = LD_OK;
     for (int i = 0; i < self->columns && !status; i++)
         status = read_field(self, i, row);
@@ -192,22 +196,22 @@ static ld_status read_shot(shot_reader *self)
 
 static int by_salvo(const void *left, const void *right)
 {
-    const shot *a = *(shot *const *)left, *b = *(shot *const *)right;
+    const launch_row *a = *(launch_row *const *)left, *b = *(launch_row *const *)right;
     int salvo = (a->salvo > b->salvo) - (a->salvo < b->salvo);
     return salvo ? salvo : (a->number > b->number) - (a->number < b->number);
 }
 
 // The values that there are of result `index`, salvo by salvo.
-static ld_status take_result(shot_reader *self, int index)
+static ld_status take_result(launch_reader *self, int index)
 {
-    measured *shots = self->shots;
-    measured_result *result = &shots->result[index];
-    result->value = calloc(shots->shots, sizeof *result->value);
-    result->group = calloc(shots->shots, sizeof *result->group);
+    measured *launches = self->launches;
+    measured_result *result = &launches->result[index];
+    result->value = calloc(launches->count, sizeof *result->value);
+    result->group = calloc(launches->count, sizeof *result->group);
     if (!result->value || !result->group)
         return no_memory(self->error);
-    for (size_t i = 0; i < shots->shots; i++) {
-        const shot *row = self->row[i];
+    for (size_t i = 0; i < launches->count; i++) {
+        const launch_row *row = self->row[i];
         if (isnan(row->value[index]))
             continue;
         result->group[result->count] = row->salvo;
@@ -219,61 +223,62 @@ static ld_status take_result(shot_reader *self, int index)
                    result->name);
 }
 
-static ld_status read_shots(shot_reader *self)
+static ld_status read_launches(launch_reader *self)
 {
-    measured *shots = self->shots;
+    measured *launches = self->launches;
     ld_status status = read_header(self);
     while (!status && next_line(self))
-        status = read_shot(self);
+        status = read_launch(self);
     if (!status && self->at.wrong)
         status = refuse(self, 0, "", self->at.wrong);
-    if (!status && shots->shots == 0)
+    if (!status && launches->count == 0)
         status = refuse(self, 0, "", "no launch follows the header");
     if (status)
         return status;
-    qsort(self->row, shots->shots, sizeof(shot *), by_salvo);
-    for (size_t i = 0; self->salvo != NO_RESULT && i < shots->shots; i++)
-        shots->salvos += i == 0 || self->row[i]->salvo != self->row[i - 1]->salvo;
-    for (int i = 0; i < shots->results && !status; i++)
+    qsort(self->row, launches->count, sizeof(launch_row *), by_salvo);
+    for (size_t i = 0; self->salvo != NO_RESULT && i < launches->count; i++)
+        launches->salvos += i == 0 || self->row[i]->salvo != self->row[i - 1]->salvo;
+    for (int i = 0; i < launches->results && !status; i++)
         status = take_result(self, i);
     return status;
 }
 
-ld_status measured_read(const char *file, const study_data *data, measured *shots, ld_error *error)
+ld_status measured_read(const char *file, const study_data *data, measured *launches,
+                        ld_error *error)
 {
     static const char mark[] = "\xef\xbb\xbf"; // of UTF-8, as spreadsheets write it
     char *text;
     size_t length;
     ld_error why;
-    *shots = (measured){0};
+    *launches = (measured){0};
     ld_status status = text_file_read(file, MOST_BYTES, &text, &length, &why);
     if (status)
         return ld_fail(error, status, "%.300s %s", file, why.text);
     size_t from = strncmp(text, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
-    shot_reader reader = {.file = file,
-                          .data = data,
-                          .shots = shots,
-                          .at = text_lines_begin(text + from, length - from),
-                          .salvo = NO_RESULT,
-                          .error = error};
-    status = read_shots(&reader);
-    for (size_t i = 0; i < shots->shots; i++)
+    launch_reader reader = {.file = file,
+                            .data = data,
+                            .launches = launches,
+                            .at = text_lines_begin(text + from, length - from),
+                            .salvo = NO_RESULT,
+                            .error = error};
+    status = read_launches(&reader);
+    for (size_t i = 0; i < launches->count; i++)
         free(reader.row[i]);
     free(reader.row);
     free(text);
     if (status)
-        measured_free(shots);
+        measured_free(launches);
     return status;
 }
 
-void measured_free(measured *shots)
+void measured_free(measured *launches)
 {
-    for (int i = 0; i < shots->results; i++) {
-        free(shots->result[i].value);
-        free(shots->result[i].group);
+    for (int i = 0; i < launches->results; i++) {
+        free(launches->result[i].value);
+        free(launches->result[i].group);
     }
-    free(shots->result);
-    *shots = (measured){0};
+    free(launches->result);
+    *launches = (measured){0};
 }
 
 ld_status measured_compare(const measured_result *result, const study_values *values,

@@ -297,7 +297,7 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     }
     ld_status status = print_counts(self, point, error);
     if (!status && self->view->measured)
-        return show_measured(self->stream, &self->shots, data, point, &self->values, error);
+        return show_measured(self->stream, &self->launches, data, point, &self->values, error);
     if (!status && self->view->against)
         return show_against_point(&self->pairs, point, self->stream, error);
     const group_statistics *of = shown_statistics(self, point), *most = most_values(self, of);
@@ -375,9 +375,9 @@ static ld_status prepare(shown *self, ld_error *error)
 {
     const ld_study_view *view = self->view;
     if (view->measured) {
-        ld_status status = measured_read(view->measured, self->data, &self->shots, error);
+        ld_status status = measured_read(view->measured, self->data, &self->launches, error);
         if (!status && !view->json)
-            show_shots(self->stream, view->measured, &self->shots);
+            show_launches(self->stream, view->measured, &self->launches);
         return status;
     }
     ld_status status = shown_choose(self, error);
@@ -435,7 +435,7 @@ ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *str
     numeric_locale_leave(before);
     free(self.column);
     free(self.of);
-    measured_free(&self.shots);
+    measured_free(&self.launches);
     against_free(&self.reference);
     for (int k = 0; k < 2; k++)
         study_values_free(&self.pairs.values[k]);

@@ -231,7 +231,7 @@ static ld_status write_against(json_writer *json, shown *self, const study_point
     return status;
 }
 
-// ---- beside measured shots
+// ---- beside measured launches
 
 static void write_side(json_writer *json, const char *key, const group_statistics *of)
 {
@@ -255,8 +255,8 @@ static ld_status write_measured(json_writer *json, shown *self, const study_poin
     const study_data *data = self->data;
     ld_status status = LD_OK;
     json_open(json, "comparisons", '[');
-    for (int i = 0; i < self->shots.results && !status; i++) {
-        const measured_result *result = &self->shots.result[i];
+    for (int i = 0; i < self->launches.results && !status; i++) {
+        const measured_result *result = &self->launches.result[i];
         const char *nearest;
         measured_comparison of;
         status = show_measured_result(result, data, point, &self->values, &of, error);
@@ -325,8 +325,8 @@ ld_status show_json(shown *self, ld_error *error)
     json_text(&json, "title", data->title ? data->title : "");
     json_integer(&json, "asked", data->asked);
     if (self->view->measured) {
-        json_integer(&json, "shots", (long long)self->shots.shots);
-        json_integer(&json, "salvos", (long long)self->shots.salvos);
+        json_integer(&json, "launches", (long long)self->launches.count);
+        json_integer(&json, "salvos", (long long)self->launches.salvos);
     }
     json_open(&json, "points", '[');
     for (int i = 0; i < data->point_count && !status; i++)

@@ -5,7 +5,7 @@
 #include "studies/show/shown.h"
 
 // Prints counts, failures and what the view asks for, statistics, sensitivities, differences from a
-// point or from measured shots, of all points.
+// point or from measured launches, of all points.
 ld_status show_json(shown *self, ld_error *error);
 
 #endif

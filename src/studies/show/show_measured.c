@@ -14,11 +14,15 @@ typedef struct verdict {
     int tests, differing;
 } verdict;
 
-void show_shots(FILE *stream, const char *file, const measured *shots)
+void show_launches(FILE *stream, const char *file, const measured *launches)
 {
-    fprintf(stream, "measured in %s: %zu launches", VISIBLE(file), shots->shots);
-    if (shots->salvos)
-        fprintf(stream, " of %zu salvos, over which intervals go", shots->salvos);
+    fprintf(stream, "measured in %s: %zu launches", VISIBLE(file), launches->count);
+    if (launches->salvos)
+        fprintf(stream, " of %zu salvos, over which intervals go", launches->salvos);
+    for (int i = 0; i < launches->results; i++)
+        if (launches->result[i].former[0])
+            fprintf(stream, "\n%s is called %s now", launches->result[i].former,
+                    launches->result[i].name);
     fputs("\n\n", stream);
 }
 
@@ -91,18 +95,18 @@ static void print_verdict(FILE *stream, const verdict *of)
                 of->differing, of->tests);
 }
 
-ld_status show_measured(FILE *stream, const measured *shots, const study_data *data,
+ld_status show_measured(FILE *stream, const measured *launches, const study_data *data,
                         const study_point *point, study_values *values, ld_error *error)
 {
     verdict found = {0};
     ld_status status = LD_OK;
     fprintf(stream, "\n%-26s %5s %-22s %-22s   %-30s %6s\n", "mean", "count", "measured",
             "simulated", "difference, x: ratio", "p");
-    for (int i = 0; i < shots->results && !status; i++) {
+    for (int i = 0; i < launches->results && !status; i++) {
         measured_comparison of;
-        status = show_measured_result(&shots->result[i], data, point, values, &of, error);
+        status = show_measured_result(&launches->result[i], data, point, values, &of, error);
         if (!status)
-            print_result(stream, &shots->result[i], &of, &found);
+            print_result(stream, &launches->result[i], &of, &found);
     }
     if (!status)
         print_verdict(stream, &found);

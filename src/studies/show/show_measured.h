@@ -1,4 +1,4 @@
-// A study beside measured shots, printed.
+// A study beside measured launches, printed.
 #ifndef LD_STUDIES_SHOW_MEASURED_H
 #define LD_STUDIES_SHOW_MEASURED_H
 
@@ -7,7 +7,7 @@
 #include "studies/show/measured.h"
 
 // What was measured: the file, and how much it holds.
-void show_shots(FILE *stream, const char *file, const measured *shots);
+void show_launches(FILE *stream, const char *file, const measured *launches);
 
 // A measured result beside that of a point of the study. `values` is used again from call to call.
 ld_status show_measured_result(const measured_result *result, const study_data *data,
@@ -16,7 +16,7 @@ ld_status show_measured_result(const measured_result *result, const study_data *
 
 // A table in the file's units: mean and deviation of each result, as measured and at a point of the
 // study, how far they are apart, p; then which of them differ. `values` as above.
-ld_status show_measured(FILE *stream, const measured *shots, const study_data *data,
+ld_status show_measured(FILE *stream, const measured *launches, const study_data *data,
                         const study_point *point, study_values *values, ld_error *error);
 
 #endif

@@ -8,7 +8,7 @@
 #include "quantities/summary.h"
 #include "studies/statistics/sensitivity.h"
 
-static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,since_ignition.pitch,"
+static const char usual[] = "t_front,t_middle,t_rear,exit_speed,spin_rate,since_ignition.pitch,"
                             "since_ignition.yaw,since_ignition.pitch_rate,"
                             "since_ignition.yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
                             "tip_off.yaw_rate,pitch,yaw,pitch_rate,yaw_rate,apogee,downrange,drift,"
@@ -17,7 +17,7 @@ static const char usual[] = "t_front,t_middle,t_rear,muzzle_speed,spin_rate,sinc
                             "azimuth.saturated,azimuth.power_mean,elevation.error_rms,"
                             "elevation.torque_rms,elevation.torque_peak,elevation.saturated,"
                             "elevation.power_mean";
-static const char sensitive[] = "t_rear,muzzle_speed,since_ignition.pitch,since_ignition.yaw,"
+static const char sensitive[] = "t_rear,exit_speed,since_ignition.pitch,since_ignition.yaw,"
                                 "since_ignition.pitch_rate,since_ignition.yaw_rate,downrange,drift";
 
 static ld_status no_memory(ld_error *error)

@@ -14,7 +14,7 @@ typedef struct shown {
     const study_data *data;
     const ld_study_view *view;
     FILE *stream;
-    measured shots;              // beside which the study is shown, or none
+    measured launches;           // beside which the study is shown, or none
     against reference;           // against which points are shown, or none
     show_against pairs;          // with those
     const study_column **column; // [count] what is shown

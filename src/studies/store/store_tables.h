@@ -13,7 +13,7 @@
 #include "studies/store/store_text.h"
 
 // Raised when they change.
-#define STORE_FORMAT "9"
+#define STORE_FORMAT "10"
 
 // The statements that make the tables of the store's study, for sqlite3_free().
 ld_status store_tables_of_study(const study_store *self, char **text, ld_error *error);

@@ -353,16 +353,25 @@ void study_data_close(study_data *data)
     *data = (study_data){0};
 }
 
-const study_column *study_data_find(const study_data *data, const char *name, const char **nearest)
+static const study_column *column_named(const study_data *data, const char *name)
 {
-    name_suggestion suggestion = suggestion_begin(name);
-    for (int i = 0; i < data->column_count; i++) {
+    for (int i = 0; i < data->column_count; i++)
         if (strcmp(data->column[i].name, name) == 0)
             return &data->column[i];
-        suggestion_offer(&suggestion, data->column[i].name);
-    }
-    *nearest = suggestion.name;
     return NULL;
+}
+
+const study_column *study_data_find(const study_data *data, const char *name, const char **nearest)
+{
+    char now[QUANTITY_NAME];
+    name_suggestion suggestion = suggestion_begin(name);
+    const study_column *column = column_named(data, name);
+    if (!column && ld_current_name(name, now, sizeof now))
+        column = column_named(data, now);
+    for (int i = 0; i < data->column_count && !column; i++)
+        suggestion_offer(&suggestion, data->column[i].name);
+    *nearest = suggestion.name;
+    return column;
 }
 
 // ---- failures
