@@ -40,8 +40,8 @@ typedef struct ld_event {
     ld_event_kind kind;
     double t;   ///< [s] on the run's clock
     int rocket; ///< from 1, in the order of firing: the one whose turn it is
-    int part;   ///< adaptor or wheel, from 1, in the model's order; of each slide first the stop in
-                ///< battery, then the one behind; 0: of none
+    int part;   ///< adaptor or wheel, from 1, in the model's order; of each slide first the front
+                ///< stop, then the one behind; 0: of none
 } ld_event;
 
 /// Begins a run: finds its start, gives the sink geometry, columns and the first row. What

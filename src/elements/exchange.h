@@ -26,7 +26,7 @@ typedef struct launching_layout {
 // The rocket's coordinates in the tube, from `x` on: travel [m], offsets [m], angles [rad] of A_SB.
 enum { X_S, X_Y, X_Z, X_PSI, X_THETA, X_GAMMA, X_COUNT };
 
-enum { LD_SLIDE_STOPS = 2 }; // of a recoil slide: in battery, behind
+enum { LD_SLIDE_STOPS = 2 }; // of a recoil slide: the front one, the one behind
 
 // What is switched by events.
 typedef struct launching_phase {
@@ -115,7 +115,7 @@ enum launching_power {
 
 // A slide on which the tube recoils.
 typedef struct slide_report {
-    double travel, rate; // [m], [m/s] way back from battery
+    double travel, rate; // [m], [m/s] travel back from the front stop
     double force;        // [N] on the tube, along x of the base's tube axes
 } slide_report;
 

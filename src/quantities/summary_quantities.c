@@ -125,7 +125,7 @@ static const quantity pressure_peak[] = {
     {"max_pressure", "Pa", "largest pressure behind the rocket less that before it", ROCKET(max_pressure), KEPT, .from_zero = true, LINE("largest pressure", "MPa", 1e-6, 4)},
 };
 static const quantity recoils[] = {
-    {"max_recoil.%s", "m", "recoil slide %s: largest travel back from battery, until the change of tubes", ADAPTOR(max_recoil), KEPT, .from_zero = true, LINE("largest recoil, slide %s", "mm", MILLI, 3)},
+    {"max_recoil.%s", "m", "recoil slide %s: largest travel back from the front stop, until the change of tubes", ADAPTOR(max_recoil), KEPT, .from_zero = true, LINE("largest recoil, slide %s", "mm", MILLI, 3)},
 };
 #define CARRIED(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, station, member)
 static const quantity station_peaks[] = {

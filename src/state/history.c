@@ -197,7 +197,7 @@ static const quantity pressures[] = {
     {"pressure.force", "N", "its force on the rocket along the tube", AT(out.launching.pressure_force)},
 };
 static const quantity slides[] = {
-    {"recoil.%s.travel", "m", "recoil slide %s: travel back from battery", EACH(out.launching.slide, travel)},
+    {"recoil.%s.travel", "m", "recoil slide %s: travel back from the front stop", EACH(out.launching.slide, travel)},
     {"recoil.%s.rate", "m/s", "recoil slide %s: rate of that", EACH(out.launching.slide, rate)},
     {"recoil.%s.force", "N", "recoil slide %s: force on the tube, forwards", EACH(out.launching.slide, force)},
 };

@@ -351,7 +351,7 @@ static void stops_are_events(void **state)
     ld_run_end(run, &unused, &error);
     ld_simulation_free(simulation);
     free_model(&model);
-    printf("  in battery: %d times left, %d come to; behind: %d, %d\n", left[0], came[0], left[1],
+    printf("  front stop: %d times left, %d come to; behind: %d, %d\n", left[0], came[0], left[1],
            came[1]);
     assert_true(left[0] > 0 && came[1] > 0 && left[1] > 0);
     CHECK_BELOW("place of the tube where it comes to a stop [m]", off, 1e-11);

@@ -407,8 +407,8 @@ static void air_on_the_emerged_part_equals_dense(void **state)
     reference_model_free(&model);
 }
 
-// Displacements of the supports are some millimetres either way: out of battery and in it, half of
-// those out of it at the end of the stroke.
+// Displacements of the supports are some millimetres either way: off the front stop and on it, half
+// of those out of it at the end of the stroke.
 static void let_recoil(ld_model *model)
 {
     for (int i = 0; i < 2; i++)

@@ -179,8 +179,8 @@ static void lock_lets_go(void **state)
     }
 }
 
-// The tube goes on after the slug has left: against preload and recuperator, against a brake with
-// the square of the speed, and into the stop behind and that in battery, which throw it back.
+// The tube goes on after the slug has left: against preload and return spring, against a brake with
+// the square of the speed, and into the stop behind and the front one, which throw it back.
 static void tube_recoils(void **state)
 {
     (void)state;
@@ -230,9 +230,9 @@ static void tube_recoils(void **state)
     }
 }
 
-// At rest in battery the stop carries what the preload has beyond the weight; where the weight has
-// more, the recuperator does, out of battery.
-static void rests_in_battery(void **state)
+// At rest the front stop carries what the preload has beyond the weight; where the weight has
+// more, the return spring does, off the stop.
+static void rests_at_the_front_stop(void **state)
 {
     (void)state;
     for (int i = 0; i < 2; i++) {
@@ -295,7 +295,7 @@ int main(void)
         cmocka_unit_test(tables_drive_slug_and_tube),
         cmocka_unit_test(lock_lets_go),
         cmocka_unit_test(tube_recoils),
-        cmocka_unit_test(rests_in_battery),
+        cmocka_unit_test(rests_at_the_front_stop),
         cmocka_unit_test(rifling_gives_spin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

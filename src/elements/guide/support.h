@@ -42,7 +42,7 @@ typedef struct slide_force {
 } slide_force;
 
 // How far a one-sided stop is pressed in, or less by its damper [m]: positive where it pushes, as
-// it never pulls. The one in battery stands at d = 0, the one behind at d = -stroke.
+// it never pulls. The front one stands at d = 0, the one behind at d = -stroke.
 LD_INLINE double stop_press(const recoil_slide *slide, int stop, double d, double v)
 {
     double p = stop ? -d - slide->given.stroke : d, p_dot = stop ? -v : v;
@@ -65,7 +65,7 @@ LD_INLINE void stop_add(const recoil_slide *slide, int stop, double d, double v,
     to->stops += side * damped * v;
 }
 
-// At displacement d (recoil: d < 0) and speed v: the recuperator F_0 - k min(d, 0), damping and
+// At displacement d (recoil: d < 0) and speed v: the return spring F_0 - k min(d, 0), damping and
 // friction, the stops.
 LD_INLINE slide_force slide_load(const recoil_slide *slide, double d, double v, bool frictionless,
                                  const int pushing[LD_SLIDE_STOPS])

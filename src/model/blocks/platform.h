@@ -36,8 +36,8 @@ typedef struct ld_turret {
 typedef struct ld_platform {
     double chassis_mass;       ///< [kg]
     double chassis_inertia[3]; ///< [kg m2]
-    ld_table jet;     ///< distance from a tube's mouth [m], force of a jet [N]; empty: none
-    double jet_scale; ///< [-] factor on the force
+    ld_table jet;              ///< distance from a tube's exit [m], force of a jet [N]; empty: none
+    double jet_scale;          ///< [-] factor on the force
     ld_turret azimuth;
     ld_turret elevation;
 } ld_platform;

@@ -9,8 +9,8 @@
 /// A slide on which the tube recoils along its x against a support: model.md, section 4.
 typedef struct ld_recoil {
     bool present;
-    double preload;           ///< [N] towards battery
-    double stiffness;         ///< [N/m] of the recuperator
+    double preload;           ///< [N] towards the front stop
+    double stiffness;         ///< [N/m] of the return spring
     double damping;           ///< [N s/m]
     double quadratic_damping; ///< [N s2/m2]
     double friction;          ///< [N]

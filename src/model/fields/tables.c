@@ -680,7 +680,7 @@ static const field_row recoil_fields[] = {
     {"preload", NUMBER(ld_recoil, preload, "N"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "force at which the tube begins to recoil"},
     {"stiffness", NUMBER(ld_recoil, stiffness, "N/m"), NOT_NEGATIVE, DEFAULT(0),
-     .doc = "of the recuperator: force over travel"},
+     .doc = "of the return spring: force over travel"},
     {"damping", NUMBER(ld_recoil, damping, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "force over speed"},
     {"quadratic_damping", NUMBER(ld_recoil, quadratic_damping, "N.s2/m2"), NOT_NEGATIVE, DEFAULT(0),

@@ -193,7 +193,7 @@ static void gain_rules(const rule_set *rules, const char *path, const ld_stabili
     sample_rules(rules, path, s);
 }
 
-// A jet is there from the mouth on and ends within its table.
+// A jet is there from the tube's exit on and ends within its table.
 static void jet_rules(const rule_set *rules, const ld_table *jet)
 {
     if (jet->rows == 0)

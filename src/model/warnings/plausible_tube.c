@@ -112,7 +112,7 @@ static plausible_pair outer_fibre(const plausible_entry *at)
     return plausible_compare(station->outer_fibre[along_y ? 0 : 1], along_y ? y : z);
 }
 
-// What the recuperators carry beside the weight that pulls the tube out of battery.
+// What the return springs carry beside the weight that pulls the tube off its front stop.
 static plausible_pair preload(const plausible_entry *at)
 {
     const ld_model *model = at->model;
@@ -216,11 +216,11 @@ const plausible_rule plausible_of_tube[] = {
      .why = "the slide does not move"},
     {"tubes.supports.#.recoil.preload", "the preload of all slides", .unit = "N",
      .other = "the weight of tube and rocket towards the rear", .low = 1, NO_HIGH, .find = preload,
-     .of = "tubes.material.density", .why = "the tube rests out of battery"},
+     .of = "tubes.material.density", .why = "the tube rests off its front stop"},
     {"tubes.supports.#.recoil.stroke", .unit = "m", .other = "tubes.length", NO_LOW, .high = 1,
      .why = "a slide is shorter than its tube"},
     {"tubes.supports.#.recoil.friction", .unit = "N", .other = "tubes.supports.#.recoil.preload",
-     NO_LOW, .high = 1, .why = "the tube does not return into battery"},
+     NO_LOW, .high = 1, .why = "the tube does not return to its front stop"},
     {"tubes.supports.#.at", "the distance from the nearest clamped station before it", .unit = "m",
      .other = "tubes.length", .low = 0.005, NO_HIGH, .find = clamped_distance,
      .why = "clamps so close act as one, with unbounded forces"},
