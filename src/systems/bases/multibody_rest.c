@@ -5,6 +5,7 @@
 
 #include "math/functions.h"
 #include "math/matrices/lapack.h"
+#include "math/matrices/symmetric_eigen.h"
 #include "model/model.h"
 #include "systems/bases/multibody_base.h"
 #include "systems/mechanism/mechanism_loops.h"
@@ -212,29 +213,38 @@ static void hold_most(int n, int bodies, int directions, double *V, bool *held)
     }
 }
 
+// J^T J, whose eigenvectors with the least eigenvalues move with the least resistance.
+static void square_of(int n, const double *J, double *S)
+{
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            S[i + n * j] = 0;
+            for (int k = 0; k < n; k++)
+                S[i + n * j] += J[k + n * i] * J[k + n * j];
+        }
+}
+
 static ld_status find_held(const rest_problem *the, const double *state, const double *J,
                            double *work, bool *held, ld_error *error)
 {
+    const double weak = 1e-8; // of the largest eigenvalue, a square
     int n = the->count, neutral = 0;
-    double *s = malloc((size_t)n * sizeof *s), *Vt = malloc((size_t)(n * n) * sizeof *Vt),
-           *V = calloc((size_t)(n * n), sizeof *V), unused;
+    size_t square = (size_t)(n * n);
+    double *all = malloc((2 * square + (size_t)n) * sizeof *all);
+    double *E = all, *V = all + square, *value = V + square;
     ld_status status = LD_OK;
-    if (!s || !Vt || !V)
-        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the base's rest");
-    memcpy(work, J, (size_t)(n * n) * sizeof *work);
-    if (!status && LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'O', n, n, work, n, s, &unused, 1, Vt, n))
-        status = ld_fail(error, LD_ERR_NUMERIC, "the base's rest cannot be told");
-    for (int k = n - 1; k >= 0 && !status && s[k] < 1e-4 * s[0]; k--) {
-        for (int i = 0; i < n; i++)
-            V[i + n * neutral] = Vt[k + n * i];
-        if (is_neutral(the, state, V + n * neutral))
-            neutral++;
+    square_of(n, J, work);
+    if (!all)
+        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the base's equilibrium");
+    else if (symmetric_eigen(n, work, NULL, n, value, E))
+        status = ld_fail(error, LD_ERR_NUMERIC, "the base's equilibrium cannot be judged");
+    for (int k = 0; !status && k < n && value[k] < weak * value[n - 1]; k++) {
+        memcpy(V + n * neutral, E + n * k, (size_t)n * sizeof *V);
+        neutral += is_neutral(the, state, V + n * neutral);
     }
     if (!status)
         hold_most(n, the->wheels_from, neutral, V, held);
-    free(s);
-    free(Vt);
-    free(V);
+    free(all);
     return status;
 }
 
