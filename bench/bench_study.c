@@ -123,7 +123,7 @@ static double share_in_samples(const ld_study *study)
     study_worker worker = start_worker(study);
     for (int64_t number; (number = ledger_next(&ledger)) != 0;) {
         double before = now();
-        worker_run(&worker, number, ledger_goes_on, &ledger);
+        worker_run(&worker, number, ledger_continues, &ledger);
         inside += now() - before;
         ledger_keep(&ledger, worker.record);
     }

@@ -1,5 +1,5 @@
 # Writes the C source INTO, which names the commit of the sources in FROM, "unknown" where they are
-# no checkout of their own. A file that would stay the same is left alone, so nothing is linked anew.
+# no checkout of their own. A file that would stay the same is left alone, so nothing is linked again.
 set(commit unknown)
 find_program(GIT git)
 if(GIT)

@@ -1,5 +1,5 @@
 // What the eye measures by, drawn over the picture: the axes of I, a length and a force, both as long as they are at the
-// place that is looked at.
+// place that is viewed.
 import { placeBeside } from "../report/labels.js";
 
 const MARGIN = 12, AXIS = 24, HEAD = 34, LINE = 15, RING = 8, FORCE_COLOUR = "#17a05d";

@@ -58,7 +58,7 @@ export class Road {
   }
 }
 
-// A grid of lines that goes on as far as one sees; `sea`: on water.
+// A grid of lines that continues as far as one sees; `sea`: on water.
 export class Grid {
   constructor(height, sea, group) {
     const points = [];

@@ -25,7 +25,7 @@ export class Vehicle {
     const xs = mounts.map(([x]) => x), zs = mounts.map(([, , z]) => z), y = Math.max(...mounts.map((m) => m[1]));
     const front = Math.max(...xs), rear = Math.min(...xs), side = Math.max(...zs) + 0.2;
     const deck = a[1] - 0.12, floor = Math.min(y + 0.55 * R, deck - 0.2);
-    const steep = Math.abs(motion.value("base.pitch")[0]) > 0.8; // the cab may stand before a steep launcher
+    const steep = Math.abs(motion.value("base.pitch")[0]) > 0.8; // the cab can stand in front of a steep launcher
     const reach = a[0] + motion.elevationHinge[0] + (steep ? 1 : Math.max(...motion.places.map(([x]) => x)) + motion.length);
     this.chassis = new Group();
     this.chassis.add(box([rear - 1.3 * R, floor, -0.55], [front + 1.3 * R, deck - 0.25, 0.55], paint.vehicle, edge));

@@ -1,7 +1,7 @@
 // The rocket's own shape, where the scenario gives the air on it by surface: body and fins, in B.
 
 // `rows`: an array of the geometry by its name, as a list of rows. The body from its tip backwards, points [x, radius], to
-// where the last fin ends; fins by sets. Null where the results tell no shape.
+// where the last fin ends; fins by sets. Null where the results have no shape.
 export function outlineOf(rows) {
   const body = rows("rocket.outline");
   if (body.length === 0) return null;

@@ -53,7 +53,7 @@ function usualScale(motion) {
 
 class Replay {
   // `given`: table of the launch, its flights by rocket, geometry, rockets, marks in seconds from
-  // `zero`, the page's helpers, and what to tell of a new instant.
+  // `zero`, the page's helpers, and what to call at a new instant.
   constructor(host, given) {
     Object.assign(this, given);
     this.motion = this.table.kind === "flight" ? new FreeMotion(this.table, this.tools)
@@ -227,14 +227,14 @@ class Replay {
       this.advance(passed);
       requestAnimationFrame(step);
     };
-    this.playing = step; // the one that goes on
+    this.playing = step; // the one that continues
     requestAnimationFrame(step);
   }
   pause() {
     this.playing = null;
     this.play.textContent = "Play";
   }
-  // Goes on by a time of the clock on the wall, each phase at its own speed.
+  // Continues by a time of the clock on the wall, each phase at its own speed.
   advance(passed) {
     let time = this.time;
     for (const { name, to } of this.clock.parts) {
@@ -248,7 +248,7 @@ class Replay {
     this.pause();
     if (this.film?.recorder.state === "recording") this.film.recorder.stop();
   }
-  // Shows an instant on the run's clock; `quiet`: tells nobody.
+  // Shows an instant on the run's clock; `quiet`: without calls.
   show(time, quiet = false) {
     this.time = Math.min(this.clock.last, Math.max(this.clock.first, time));
     this.stage.show(this.time);

@@ -138,7 +138,7 @@ function stripes(rings) {
   return new Float32BufferAttribute(colours, 3);
 }
 
-// The told body, as slim as the other is drawn, with a nozzle; the slope at a point is that of what is behind it.
+// The given body, as slim as the other is drawn, with a nozzle; the slope at a point is that of what is behind it.
 function profileOf({ body, rear, widest }, radius) {
   const told = body.map(([l, r]) => ({ l, r: Math.max(0.002 * widest, r) * (radius / widest) })).reverse();
   const slope = (i) => (told[i].l > told[i - 1].l ? (told[i].r - told[i - 1].r) / (told[i].l - told[i - 1].l) : 0), [{ r }] = told;
@@ -152,7 +152,7 @@ const across = (corners, angle) => corners.map(([x, r]) => [x, r * Math.cos(angl
 const finsOf = ({ fins, widest }, radius) => fins.flatMap((of) => Array.from({ length: of.count }, (_, k) =>
   across(finCorners(of).map(([x, r]) => [x, r * (radius / widest)]), (2 * Math.PI * (k + 0.5)) / of.count)));
 
-const MADE_UP = [[-0.03, 0.9], [0.28, 0.9], [0.1, 3], [-0.03, 3]]; // a fin where none is told: along the body, in its radii
+const MADE_UP = [[-0.03, 0.9], [0.28, 0.9], [0.1, 3], [-0.03, 3]]; // a fin where none is given: along the body, in its radii
 
 function fin(corners) {
   const geometry = new BufferGeometry();

@@ -12,7 +12,7 @@ import { Pack, Rail, Tube } from "./tubes.js";
 import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./vector.js";
 
 const FIELD = 32; // degrees that the eye takes in from top to bottom
-const MARGIN = 0.94; // of that what is looked at may take
+const MARGIN = 0.94; // of it for what is viewed
 const HEAD = 34, FOOT = 16; // pixels at the top that words and buttons have, and at the bottom
 const AFAR = 56; // pixels that a rocket on its path is long
 const SOME = 200; // points of a flight that its picture is made to hold
@@ -174,7 +174,7 @@ export class Stage {
 
   // ---- the eye ----
 
-  // The rocket that is looked at: the chosen one once its turn has come, else the one in the tube, or the last that has left.
+  // The rocket that is viewed: the chosen one once its turn has come, else the one in the tube, or the last that has left.
   watched() {
     const { state, chosen } = this;
     if (chosen !== null && (this.flying[chosen] || state.number === chosen)) return chosen;

@@ -54,7 +54,7 @@ export class Pack {
     for (const z of [low[1] + 0.1, high[1] - 0.1])
       this.group.add(box([rear, low[0] - 0.09, z - 0.04], [front, low[0] - bar, z + 0.04], paint.platform, edge));
   }
-  // `launching`: number of the tube that is drawn by itself; `fired`: those without a rocket;
+  // `launching`: number of the tube that is drawn on its own; `fired`: those without a rocket;
   // `close`: the eye is on the tube, what stands before it steps back.
   show(state, anchor, launching, fired, close) {
     this.glass.opacity = close ? 0.025 : 0.12;

@@ -1,5 +1,5 @@
 // The answer of a run on one card: how fast and how straight the rocket leaves, what moved most, whether the energy
-// balances, what is to be noted. Rounded as people say it; the tables have all digits.
+// balances, warnings. Rounded as people say it; the tables have all digits.
 import { filled, matching } from "./data.js";
 import { element } from "./page.js";
 import { inUnit, rounded } from "./rounded.js";

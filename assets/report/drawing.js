@@ -117,7 +117,7 @@ function reachOf(it) {
   return { rear: s - 0.5 * radius, tip: s + Math.max(...it.adaptors) + 5 * radius, high };
 }
 
-// The body as it is told; else of the size that is known, and where that ends made up, and dashed.
+// The body as it is given; else of the size that is known, and where that ends made up, and dashed.
 function drawBody(it, X, Y) {
   const { travel: s, outline } = it, radius = radiusOf(it), { rear, tip } = reachOf(it), shoulder = tip - 4 * radius;
   if (outline) return [...seenFins(it).map((corners) => shape(corners.map(([x, y]) => [X(s + x), Y(y)]), "rocket fin")),

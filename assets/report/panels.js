@@ -1,7 +1,7 @@
 // What a figure's panels show of a table: curves ready to be drawn.
 import { filled, matching, rowAt } from "./data.js";
 
-const TOLD = 186, FOLDED = 240; // heights of plots [px]
+const OPEN = 186, FOLDED = 240; // heights of plots [px]
 
 const hasValues = (column) => column.value.some((v) => typeof v === "number");
 
@@ -32,7 +32,7 @@ export function panelsOf(table, figure, zero) {
     const against = panel.x && table.column.get(panel.x.column);
     const curves = curvesOf(table, panel, zero);
     if (curves.length === 0 || (panel.x && !against)) continue;
-    const base = { figure, panel, table, zero, against, height: figure.told ? TOLD : FOLDED };
+    const base = { figure, panel, table, zero, against, height: figure.open ? OPEN : FOLDED };
     if (panel.each)
       for (const curve of curves)
         shown.push({ ...base, title: panel.title.replace("%s", () => curve.label), curves: [curve] });

@@ -56,9 +56,9 @@ function addPanel(grid, shown, group, marks) {
 }
 
 // A figure of the story, or one that is folded and drawn when it is unfolded; `draw` fills its grid.
-function figureOf(id, { told, title }, count, draw) {
+function figureOf(id, { open, title }, count, draw) {
   const grid = element("div", { className: `grid of${count}` });
-  if (told) return { node: element("section", { className: "figure", id }, element("h3", { className: "heading" }, title), grid), draw: () => draw(grid) };
+  if (open) return { node: element("section", { className: "figure", id }, element("h3", { className: "heading" }, title), grid), draw: () => draw(grid) };
   const node = element("details", { className: "figure", id }, element("summary", {}, title), grid);
   node.addEventListener("toggle", () => draw(grid), { once: true });
   return { node, draw: null };
@@ -76,7 +76,7 @@ export function addFigures(host, id, figures, panelsOf, groups, marks) {
       const here = marks.filter(({ figures }) => figures.includes(figure.time));
       for (const shown of panels) followers.push(addPanel(grid, shown, group, here));
     });
-    (figure.told ? host : rest).append(node);
+    (figure.open ? host : rest).append(node);
     draw?.();
   }
   if (rest.children.length > 0) host.append(rest);
@@ -89,7 +89,7 @@ export function homeOf(table, ignition, all) {
   return [all ? first : Math.max(first, -0.005), last];
 }
 
-// Of several launches, buttons that show one of them or all; `choose` is told which rocket, from 0, or null. One choice
+// Of several launches, buttons that show one of them or all; `choose` gets the rocket, from 0, or null. One choice
 // leads all that shows launches.
 export function launchChoice(count, choose) {
   const button = (text, rocket) => element("button", { type: "button", value: rocket ?? "all", onclick: () => choose(rocket) }, text);

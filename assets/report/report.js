@@ -15,7 +15,7 @@ const host = document.getElementById("report");
 const data = JSON.parse(document.getElementById("data").textContent), named = namingOf(data.geometry);
 data.figures = namedFigures(data.figures, named);
 
-// The summary and its tables; neither where there is none, or one that makes no sense: then a note says so.
+// The summary and its tables; neither where there is none, or one that makes no sense: then a warning says so.
 function readSummary() {
   const node = document.getElementById("summary");
   if (!node) return {};
@@ -28,13 +28,13 @@ function readSummary() {
   }
 }
 
-// Of several flights the first tells its way, and folds the rest; the others are folded as a whole, side by side.
+// Of several flights the first shows its path, and folds the rest; the others are folded as a whole, side by side.
 const otherFlights = element("div", { className: "rest flights" });
 
 function figuresOf(table) {
   const flight = table.kind === "flight", figures = data.figures.filter(({ time }) => (time === "flight") === flight);
   const several = flight && table.rocket === 1 && data.rockets.length > 1;
-  return figures.map((figure, i) => (several ? { ...figure, told: figure.told && i === 0 } : figure));
+  return figures.map((figure, i) => (several ? { ...figure, open: figure.open && i === 0 } : figure));
 }
 
 function showTable(table, index, nav) {

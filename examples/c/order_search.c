@@ -159,7 +159,7 @@ static void swap(int *one, int *other)
 }
 
 // Exchanges the two tubes that gain most, as long as any two gain; sign 1: the least scatter, -1:
-// the greatest. Returns how many orders it has looked at.
+// the greatest. Returns how many orders it has checked.
 static long descend(const order_model *self, int sign, order *from)
 {
     long looked = 0;
@@ -252,7 +252,7 @@ static size_t enumerate(const order_model *self, int *tube, int k, double *scatt
     return count;
 }
 
-static void look_at_all(const order_model *self)
+static void check_all_rules(const order_model *self)
 {
     static const double share[] = {0, 0.25, 0.5, 0.75, 1};
     order all = start_order(self, 0);
@@ -306,6 +306,6 @@ int main(int argc, char **argv)
     search(&model, 1);
     search(&model, -1);
     if (model.tubes <= MOST_ENUMERATED)
-        look_at_all(&model);
+        check_all_rules(&model);
     return 0;
 }

@@ -1,5 +1,6 @@
-// A run in steps: a launch that waits. Once the time of firing has come the rocket is lit where the
-// tube's tip, moved by the road, next stops pitching; beside it the launch at the time of firing.
+// A run in steps: a launch that waits. Once the time of firing has come the rocket is ignited where
+// the tube's tip, moved by the road, next stops pitching; beside it the launch at the time of
+// firing.
 //
 //     patient_launch SCENARIO.yaml
 #include <launchdyn/run.h>
@@ -9,8 +10,8 @@
 #include <math.h>
 #include <stdio.h>
 
-// Goes on in steps of 1 ms from `from` until the pitch rate of the tip in inertial space changes
-// sign, and lights the rocket there.
+// Continues in steps of 1 ms from `from` until the pitch rate of the tip in inertial space changes
+// sign, and ignites the rocket there.
 static ld_status light_when_calm(ld_run *run, double from, ld_error *error)
 {
     const double step = 1e-3;

@@ -1,4 +1,4 @@
-// A spatial pendulum chain: five links on universal hinges, let go from the horizontal.
+// A spatial pendulum chain: five links on universal hinges, released from the horizontal.
 //
 //   pendulum_chain > chain.txt        t, place of the end, energy's change
 #include <launchdyn/mstmm.h>

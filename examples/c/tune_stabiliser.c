@@ -237,7 +237,7 @@ static int evaluate(void *data, const double *x, double *value, double *constrai
     return (int)status;
 }
 
-// ---- what is told ----
+// ---- what is reported ----
 
 static ld_status print_state(const tuning *self, const char *title, const double *x,
                              ld_error *error)

@@ -120,7 +120,7 @@ static void add_forces(const mjModel *m, mjData *d)
 
 static void be_quiet(const char *message)
 {
-    (void)message; // what it warns of is looked at after each step
+    (void)message; // what it warns of is checked after each step
 }
 
 // What the code below takes for granted of the model's text.

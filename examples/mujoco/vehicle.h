@@ -1,4 +1,4 @@
-// A vehicle by MuJoCo (vehicle.xml), as an FMU wants it: numbered variables, steps, a state as
+// A vehicle by MuJoCo (vehicle.xml), as an FMU requires it: numbered variables, steps, a state as
 // numbers. It begins at rest in equilibrium under the wrench that it was given.
 #ifndef LD_EXAMPLES_MUJOCO_VEHICLE_H
 #define LD_EXAMPLES_MUJOCO_VEHICLE_H
@@ -36,7 +36,7 @@ bool vehicle_set(vehicle *self, unsigned variable, double value, char *error, si
 bool vehicle_get(vehicle *self, unsigned variable, double *value, char *error, size_t error_size);
 // Ends the setting of parameters.
 bool vehicle_start(vehicle *self, char *error, size_t error_size);
-// Goes on by `size` [s], inputs held.
+// Continues by `size` [s], inputs held.
 bool vehicle_step(vehicle *self, double size, char *error, size_t error_size);
 
 // The state, in which all that follows has the same bits.

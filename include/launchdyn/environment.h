@@ -41,7 +41,7 @@ ld_status ld_road_view_write(const ld_road_view *view, const char *folder, ld_er
 /// @return LD_OK, LD_ERR_INPUT (ending), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)
 ld_status ld_road_view_draw(const ld_road_view *view, const char *file, ld_error *error);
 
-/// Where a wind is looked at.
+/// Where a wind is shown.
 typedef struct ld_wind_section {
     double height; ///< [m] above ground of gusts and turbulence
     double top;    ///< [m] up to which the profile goes

@@ -13,8 +13,8 @@ extern "C" {
 /// What of a launch an FMU is.
 typedef enum ld_fmu_part {
     LD_FMU_ALL,     ///< the launch as the model has it
-    LD_FMU_VEHICLE, ///< its vehicle alone, which is told what the tube does to it
-    LD_FMU_LAUNCHER ///< the launcher of its vehicle, which is told where that holds it
+    LD_FMU_VEHICLE, ///< its vehicle alone, which receives the wrench of the tube
+    LD_FMU_LAUNCHER ///< the launcher of its vehicle, which receives its frame
 } ld_fmu_part;
 
 /// Writes an FMU for co-simulation (docs/fmi.md), under a temporary name that then becomes its own.

@@ -14,7 +14,7 @@ extern "C" {
 typedef struct ld_history ld_history;
 
 /// An empty one.
-/// @param next gets everything too, after this one (NULL: nobody), e.g. ld_output_sink()
+/// @param next gets everything too, after this one (NULL: no one), e.g. ld_output_sink()
 /// @return NULL: no memory
 ld_history *ld_history_new(const ld_sink *next);
 /// May be NULL.

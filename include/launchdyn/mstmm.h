@@ -298,9 +298,9 @@ typedef struct ld_mstmm_mode {
 
 /// Natural frequencies, damping ratios and mode shapes at the equilibrium q held by constant `tau`
 /// (NULL: none), ascending; prescribed hinges hold, loops stay closed. modes: at most speed_count
-/// are written, `count` tells how many; shapes (NULL: none): count rows of speed_count
-/// displacements (in the sense of the speeds), real and imaginary part in turn, the largest one 1.
-/// Fails where q is no equilibrium.
+/// are written, `count` says how many; shapes (NULL: none): count rows of speed_count displacements
+/// (in the sense of the speeds), real and imaginary part in turn, the largest one 1. Fails where q
+/// is not an equilibrium.
 ld_status ld_mstmm_vibration(ld_mstmm *system, const double *q, const double *tau,
                              ld_mstmm_mode *modes, double *shapes, int *count, ld_error *error);
 

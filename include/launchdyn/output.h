@@ -35,7 +35,7 @@ ld_status ld_output_open(const char *folder, const ld_model *model, bool csv, ld
 const ld_sink *ld_output_sink(ld_output *output);
 
 /// Writes what is left and summary.json, puts all files in place of those of an earlier run, whose
-/// report.html goes, and frees `output`. Also for runs that ended early: summary->complete tells.
+/// report.html goes, and frees `output`. Also for runs that ended early: summary->complete says.
 /// @return LD_OK, or LD_ERR_FILE: then the earlier files stand as they were. So it is where another
 ///         program has removed or replaced a file of this run
 ld_status ld_output_finish(ld_output *output, const ld_summary *summary, ld_error *error);
@@ -56,10 +56,10 @@ void ld_summary_print(const ld_model *model, const ld_summary *summary, FILE *st
 ld_status ld_summary_print_json(const ld_model *model, const ld_summary *summary, FILE *stream,
                                 ld_error *error);
 
-/// Prints as JSON (docs/command.md) what was found in a scenario: its errors and notes and, where
-/// there is a model, what was understood, in SI.
+/// Prints as JSON (docs/command.md) what was found in a scenario: its errors and warnings and,
+/// where there is a model, what was understood, in SI.
 /// @param model  NULL: the scenario has errors
-/// @param errors, notes  may be NULL: none
+/// @param errors, warnings  may be NULL: none
 /// @return LD_OK, LD_ERR_MEMORY
 ld_status ld_check_print_json(const ld_model *model, const ld_messages *errors,
                               const ld_messages *notes, FILE *stream, ld_error *error);
@@ -95,7 +95,7 @@ typedef struct ld_picture {
                                ///< columns for; none: tip, contact and relative, or of a flight
                                ///< alone trajectory and flight
     size_t figure_count;
-    double from, to;   ///< [s] from ignition; NaN: what the figure shows by itself
+    double from, to;   ///< [s] from ignition; NaN: what the figure shows on its own
     char *note;        ///< NULL, or [LD_ERROR_TEXT]: becomes "", or why it is not known
                        ///< whether a history that was drawn is whole
     const char *style; ///< "screen" (NULL), "dark", or "paper": 84 mm wide, without a title

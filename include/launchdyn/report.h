@@ -33,7 +33,7 @@ typedef struct ld_report {
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error);
 
 /// Writes the report of up to 8 runs laid over each other: the figures of all in one, their
-/// summaries side by side. What is broken or not there is noted and left out.
+/// summaries side by side. What is broken or not there is left out with a warning.
 /// @param folder [count] of the runs
 /// @param report filled; may be NULL
 /// @return LD_OK; LD_ERR_INPUT: one of the folders holds no run, or a damaged one; where
@@ -43,7 +43,7 @@ ld_status ld_report_write_runs(const char *const *folder, size_t count, const ch
                                ld_report *report, ld_error *error);
 
 /// Writes the report of studies (launchdyn/study.h) side by side: of each folder its study, or each
-/// point of its sweep. What is broken or not there is noted and left out.
+/// point of its sweep. What is broken or not there is left out with a warning.
 /// @param report filled; may be NULL
 /// @return LD_OK; LD_ERR_INPUT: one of the folders holds no study, or a damaged one; where
 ///         report->bytes is not 0, the report shows the others; LD_ERR_FILE (a study cannot be read

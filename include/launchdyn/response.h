@@ -23,7 +23,7 @@ typedef struct ld_phasor {
     double real, imaginary;
 } ld_phasor;
 
-/// Who is asked, where something takes seconds, whether to go on.
+/// Who is asked, where something takes seconds, whether to continue.
 typedef struct ld_watch {
     bool (*go_on)(void *self);
     void *self;
@@ -46,12 +46,12 @@ size_t ld_response_inputs(const ld_response *response, const ld_column **inputs)
 /// one, which at each speed is the mean of its slope over the rates that the model's road gives
 /// them (docs/response.md).
 /// @return LD_OK; as ld_response_create()
-ld_status ld_response_rub(ld_response *response, bool rub, ld_error *error);
+ld_status ld_response_friction(ld_response *response, bool friction, ld_error *error);
 
 /// Columns of the history, each of which can be asked for.
 size_t ld_response_columns(const ld_response *response, const ld_column **columns);
 
-/// Chooses the columns that the functions below tell, in this order; first there is none.
+/// Chooses the columns that the functions below report, in this order; first there is none.
 /// @return LD_OK, LD_ERR_INPUT (no such column), LD_ERR_MEMORY
 ld_status ld_response_choose(ld_response *response, const char *const *names, size_t count,
                              ld_error *error);
@@ -100,7 +100,7 @@ ld_status ld_response_random(ld_response *response, double speed, const char *in
 /// By what the model's road scatters a launch: its first rocket, lit as the vehicle marches over
 /// the road's random part and its sines, over all the phases that these may have. From launches
 /// that begin at the ignition, in the linear state that the road leaves there (with
-/// ld_response_rub() as it is in runs).
+/// ld_response_friction() as it is in runs).
 /// @param speed     [m/s] of a vehicle; at rest nothing scatters
 /// @param draws     2 or more: so many launches, each with phases drawn by the road's seed. 0: to
 ///                  the first order, from two launches for each of some 70 to 150 independent
@@ -115,7 +115,7 @@ ld_status ld_response_exit(ld_response *response, double speed, int draws, const
                            size_t count, double *mean, double *deviation, ld_error *error);
 
 /// Lets somebody stop ld_response_exit(), who is asked before each of its launches.
-/// @param watch kept by reference; NULL, as at first: nobody
+/// @param watch kept by reference; NULL, as at first: no one
 void ld_response_watch(ld_response *response, const ld_watch *watch);
 
 #pragma GCC visibility pop

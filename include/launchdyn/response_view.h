@@ -13,7 +13,7 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/// What is looked at. Without an input: the columns, or the exit, on the model's road, at its speed
+/// What is shown. Without an input: the columns, or the exit, on the model's road, at its speed
 /// or over speeds.
 typedef struct ld_response_wish {
     const char *const *what; ///< columns; NULL: a choice of them, and "all" alone: all
@@ -22,13 +22,13 @@ typedef struct ld_response_wish {
     double from, to;               ///< [Hz] of spectrum or frequency response; NaN: 0.2, 50
     double slowest, fastest, step; ///< [m/s] speeds; NaN: the model's alone
     const char *loop;              ///< a hinge, of whose loop it is; NULL: none
-    const char *density;   ///< of an input that is random: a CSV file of frequencies [Hz] and its
-                           ///< one-sided power spectral density there; NULL: it is a sine
-    bool exit;             ///< by what the road scatters the exit: `what` are numbers of a launch
-    bool rub;              ///< the hinges rub, as the road moves them (ld_response_rub()); of the
-                           ///< exit always
-    int draws;             ///< of the exit; 0: to the first order
-    const ld_watch *watch; ///< of the exit, while the view is made; NULL: nobody
+    const char *density; ///< of an input that is random: a CSV file of frequencies [Hz] and its
+                         ///< one-sided power spectral density there; NULL: it is a sine
+    bool exit;           ///< by what the road scatters the exit: `what` are numbers of a launch
+    bool friction; ///< the hinges rub, as the road moves them (ld_response_friction()); of the
+                   ///< exit always
+    int draws;     ///< of the exit; 0: to the first order
+    const ld_watch *watch; ///< of the exit, while the view is made; NULL: no one
 } ld_response_wish;
 
 /// A frequency response, or root mean squares with a spectrum, or root mean squares over the speed,
@@ -37,7 +37,7 @@ typedef struct ld_response_view ld_response_view;
 
 /// @param model kept by reference
 /// @return as ld_response_create(), ld_response_choose(), ld_response_gain(), ld_response_exit()
-/// and ld_loop_create(), and LD_ERR_INPUT (frequencies or speeds that are no range, a loop with
+/// and ld_loop_create(), and LD_ERR_INPUT (frequencies or speeds that are not a range, a loop with
 /// other wishes)
 ld_status ld_response_view_create(const ld_model *model, const ld_response_wish *wish,
                                   ld_response_view **view, ld_error *error);

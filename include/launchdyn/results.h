@@ -36,10 +36,10 @@ typedef struct ld_sink {
     ld_status (*begin)(void *self, const ld_column *columns, size_t count, ld_error *error);
     ld_status (*row)(void *self, const double *values, size_t count, ld_error *error);
     /// Rows of the flight of rocket number `rocket` (from 1, in the order of firing) follow; NULL:
-    /// no rows of flights are wanted.
+    /// no rows of flights are requested.
     ld_status (*flight)(void *self, int rocket, const ld_column *columns, size_t count,
                         ld_error *error);
-    /// What is drawn of the launcher (docs/results.md); NULL: not wanted.
+    /// What is drawn of the launcher (docs/results.md); NULL: not requested.
     ld_status (*geometry)(void *self, const ld_array *arrays, size_t count, ld_error *error);
     const void *reserved[4]; ///< NULL: room for what later versions may be asked
 } ld_sink;

@@ -35,7 +35,7 @@ void ld_messages_free(ld_messages *messages);
 /// a terminal may show it (ld_visible_text).
 void ld_messages_print(const ld_messages *messages, FILE *stream);
 
-/// Prints notes as ld_messages_print() prints errors, with `warning` in place of `error`.
+/// Prints warnings as ld_messages_print() prints errors, with `warning` in place of `error`.
 void ld_notes_print(const ld_messages *notes, FILE *stream);
 
 /// What a simulation or a run of a model said, as a message at its place: an error that is about a
@@ -45,7 +45,7 @@ void ld_notes_print(const ld_messages *notes, FILE *stream);
 bool ld_scenario_explain(const ld_model *model, const ld_error *error, ld_messages *messages);
 
 /// Reads and checks a scenario file: of one with a sweep the values that it gives besides, the
-/// nominal ones, and each swept value by itself. All errors of the file come in one pass.
+/// nominal ones, and each swept value on its own. All errors of the file come in one pass.
 /// @param path     file name; "-" is standard input
 /// @param sets     `count` texts "path=value" that override the file (as of --set)
 /// @param model    filled on success (free with ld_model_free()); NULL on failure
@@ -56,7 +56,7 @@ ld_status ld_scenario_read(const char *path, const char *const *sets, size_t cou
                            ld_model **model, ld_messages *messages);
 
 /// The same from text in memory; `name` stands for the file in messages, `folder` is where files
-/// that it names are looked for.
+/// that it names are searched.
 ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
                                 const char *folder, const char *const *sets, size_t count,
                                 ld_model **model, ld_messages *messages);
@@ -148,12 +148,12 @@ void ld_scenario_point_name(const ld_model *model, int point, char *text, size_t
 ld_status ld_scenario_read_source(ld_source *source, int point, ld_model **model,
                                   ld_messages *messages);
 
-/// Notes on values that are allowed but hardly meant, each beside what makes it so: rules over
+/// Warnings on values that are allowed but implausible, each beside what makes it so: rules over
 /// several keys, docs/scenario.md. They change nothing.
 /// @param source of a scenario that has been read (ld_model_source())
-/// @param from   first point of its sweep that is looked at, from 0 (the nominal values)
-/// @param to     last one; what is the same at several points is noted once
-/// @param notes  in any case to be freed with ld_messages_free(); of a failure what is wrong
+/// @param from   first point of its sweep that is examined, from 0 (the nominal values)
+/// @param to     last one; what is the same at several points gives a warning once
+/// @param warnings  in any case to be freed with ld_messages_free(); of a failure what is wrong
 /// @return LD_OK, LD_ERR_INPUT (the scenario has errors, or no such point), LD_ERR_MEMORY
 ld_status ld_scenario_notes(ld_source *source, int from, int to, ld_messages *notes);
 
@@ -170,7 +170,7 @@ const char *ld_model_guide(const ld_model *model);
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again.
 void ld_model_print(const ld_model *model, FILE *stream);
 
-/// Tells in words what carries, guides, holds and drives the rocket: some lines that begin with
+/// Describes in words what carries, guides, holds and drives the rocket: some lines that begin with
 /// "# ", comments of the scenario language. Nothing of a flight alone.
 void ld_model_describe(const ld_model *model, FILE *stream);
 

@@ -27,7 +27,7 @@ typedef enum ld_status {
     LD_ERR_FILE,        ///< a file cannot be written
     LD_ERR_MEMORY,      ///< no memory
     LD_ERR_NUMERIC,     ///< the numerics failed: NaN, singular matrix, no convergence
-    LD_ERR_LAUNCH,      ///< the launch cannot go on: stuck, jammed, never released
+    LD_ERR_LAUNCH,      ///< the launch cannot continue: stuck, jammed, never released
     LD_ERR_INTERRUPTED, ///< stopped on request
     LD_ERR_MISSING,     ///< a program or a feature needed is not there
 } ld_status;
@@ -64,7 +64,7 @@ const char *ld_nearest_name(const char *word, const char *const *names, size_t c
 const char *ld_current_name(const char *former, char *name, size_t size);
 
 /// The name that the text of an error or of a message suggests ("..., did you mean "mass"?"), for
-/// programs that offer it by itself.
+/// programs that offer it on its own.
 /// @param name of `size` bytes, always ended; what is too long is cut
 /// @return `name`; NULL: the text suggests none
 const char *ld_suggested_name(const char *text, char *name, size_t size);

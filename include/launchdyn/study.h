@@ -39,14 +39,14 @@ const ld_model *ld_study_model(const ld_study *study);
 typedef struct ld_study_counts {
     int64_t samples; ///< that the scenario asks for; as soon as its stopping rule holds, those
                      ///< that were enough
-    int64_t look;    ///< of a stopping rule: samples after which it is looked at; without one 0
+    int64_t look;    ///< of a stopping rule: samples after which it is checked; without one 0
     bool enough;     ///< the stopping rule holds
     int64_t done;    ///< that are kept, failed ones included
     int64_t failed;
     int64_t now; ///< of `done`, those of this run
 } ld_study_counts;
 
-/// What the caller wants; every member may be NULL or 0.
+/// What the caller requires; every member may be NULL or 0.
 typedef struct ld_study_options {
     int threads; ///< samples that run side by side; 0: one
     /// Runs only the samples shard, shard + shards, shard + 2 shards, ... into a database of its
@@ -88,7 +88,7 @@ typedef struct ld_study_view {
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
                           ///< others are from it is shown instead (docs/study.md); NULL: none
-    const char *csv;      ///< of `against`: besides, a CSV file with the same; NULL: not wanted
+    const char *csv;      ///< of `against`: besides, a CSV file with the same; NULL: not requested
     const void *reserved[1]; ///< NULL: room for what later versions may be asked
 } ld_study_view;
 
@@ -101,7 +101,7 @@ ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *str
                         ld_error *error);
 
 /// Writes all rockets with their factors and results, in full precision: a line for each into the
-/// CSV file, a dataset for each column into the HDF5 file; NULL: not wanted.
+/// CSV file, a dataset for each column into the HDF5 file; NULL: not requested.
 ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5, ld_error *error);
 
 /// Writes the footprints of all points of the sweep, for range safety: the regions in which 95, 99
@@ -111,7 +111,7 @@ ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5,
 ///         on the Earth for .kml and .geojson), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_export_footprint(const char *folder, const char *file, ld_error *error);
 
-/// One sample by itself.
+/// One sample on its own.
 typedef struct ld_sample ld_sample;
 
 /// Sample `number` (from 1) of a study, which must outlive it.
@@ -119,7 +119,7 @@ typedef struct ld_sample ld_sample;
 ///         model), LD_ERR_MEMORY
 ld_status ld_study_sample(const ld_study *study, int64_t number, ld_sample **sample,
                           ld_error *error);
-/// Sample `number` (from 1) of a model by itself, which must outlive it.
+/// Sample `number` (from 1) of a model on its own, which must outlive it.
 ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **sample,
                            ld_error *error);
 const ld_model *ld_sample_model(const ld_sample *sample);

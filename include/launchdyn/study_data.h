@@ -96,8 +96,8 @@ ld_status ld_study_data_sensitivity(ld_study_data *data, int point, const char *
 /// A footprint, for range safety: the region in which a share of landings lies (docs/study.md).
 typedef struct ld_study_footprint {
     double share;         ///< of further landings that lie within, on average
-    double needed;        ///< independent landings that it wants
-    double independent;   ///< how many tell this share as well as those that are there
+    double needed;        ///< independent landings that it requires
+    double independent;   ///< how many report this share as well as those that are there
     bool stated;          ///< there are as many as are needed; else what follows is NaN
     ld_estimate content;  ///< share of further landings that lie within
     ld_estimate area;     ///< [m2] interval: of the contour within which the share lies exactly

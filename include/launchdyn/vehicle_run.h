@@ -1,8 +1,8 @@
-/// A run of a scenario's vehicle alone, stepped under a wrench that it is told: for a program that
+/// A run of a scenario's vehicle alone, stepped under a given wrench: for a program that
 /// has its own launcher on it, or moves our launcher (base.kind: external) on it step by step.
 ///
 /// The simulation is that of the whole scenario. The vehicle begins as it does there, in
-/// equilibrium under tube and rocket; from then on it knows of them what it is told.
+/// equilibrium under tube and rocket; from then on it knows of them what it is given.
 #ifndef LAUNCHDYN_VEHICLE_RUN_H
 #define LAUNCHDYN_VEHICLE_RUN_H
 
@@ -26,24 +26,24 @@ ld_status ld_vehicle_run_begin(const ld_simulation *simulation, ld_vehicle_run *
 /// NULL: nothing happens.
 void ld_vehicle_run_end(ld_vehicle_run *run);
 
-/// Goes on to time t [s]; it has no end of its own.
+/// Continues to time t [s]; it has no end of its own.
 /// @return LD_OK; LD_ERR_INPUT (t lies behind, or is not finite); LD_ERR_NUMERIC, LD_ERR_MEMORY,
 ///         now and whenever it is asked again
 ld_status ld_vehicle_run_advance(ld_vehicle_run *run, double t, ld_error *error);
 /// Present time [s], on the clock of the launch.
 double ld_vehicle_run_time(const ld_vehicle_run *run);
 
-/// What the tube does to the vehicle at the present time. Until it is told again it goes on, in the
-/// axes of the undeformed tube, with the rate that the last two wrenches tell; at the start, until
-/// it is told another one, it is that of tube and rocket at rest. Told again at the same time, what
-/// it was told before at that time counts no more.
+/// What the tube does to the vehicle at the present time. Until it receives another it continues,
+/// in the axes of the undeformed tube, with the rate that the last two wrenches report; at the
+/// start, until it is given another one, it is that of tube and rocket at rest. Set again at the
+/// same time, what it was given before at that time counts no more.
 /// @return LD_OK; LD_ERR_INPUT (a number that is not finite); what ended the run
-ld_status ld_vehicle_run_tell_wrench(ld_vehicle_run *run, const ld_base_wrench *wrench,
-                                     ld_error *error);
-/// The wrench at the present time, as it goes on.
+ld_status ld_vehicle_run_set_wrench(ld_vehicle_run *run, const ld_base_wrench *wrench,
+                                    ld_error *error);
+/// The wrench at the present time, as it continues.
 ld_status ld_vehicle_run_wrench(ld_vehicle_run *run, ld_base_wrench *wrench, ld_error *error);
 
-/// Where the vehicle holds the undeformed tube at the present time, for ld_run_tell_base().
+/// Where the vehicle holds the undeformed tube at the present time, for ld_run_set_base().
 ld_status ld_vehicle_run_frame(ld_vehicle_run *run, ld_base_frame *frame, ld_error *error);
 
 /// Columns of a vehicle alone, of which `t` is the first: of chassis, hinges, drive and wheels
@@ -53,7 +53,7 @@ size_t ld_vehicle_run_columns(const ld_simulation *simulation, const ld_column *
 /// Their values at the present time.
 ld_status ld_vehicle_run_row(ld_vehicle_run *run, double *values, ld_error *error);
 
-/// As ld_run_save() and ld_run_load(): goes on with the same bits.
+/// As ld_run_save() and ld_run_load(): continues with the same bits.
 ld_status ld_vehicle_run_save(ld_vehicle_run *run, void *bytes, size_t capacity, size_t *size,
                               ld_error *error);
 ld_status ld_vehicle_run_load(const ld_simulation *simulation, const void *bytes, size_t size,

@@ -9,7 +9,7 @@ from typing import Any, Callable, Optional
 
 
 class Interrupt:
-    """While it lasts, Ctrl-C on the main thread is noted, and raised at its end: an exception in
+    """While it lasts, Ctrl-C on the main thread is recorded, and raised at its end: an exception in
     the midst of a function that the library calls would be lost. A handler of the program's own
     is left alone; what it raises is kept likewise."""
 
@@ -35,8 +35,8 @@ class Interrupt:
             raise self._raised or KeyboardInterrupt
 
     def asking(self, progress: Optional[Callable[[float], Any]] = None) -> Callable[..., bool]:
-        """A function for the library that tells `progress` and says whether to go on."""
-        def may_go_on(_: Any, share: float = 0) -> bool:
+        """A function for the library that calls `progress` and says whether to continue."""
+        def may_continue(_: Any, share: float = 0) -> bool:
             try:
                 if progress:
                     progress(share)
@@ -44,4 +44,4 @@ class Interrupt:
                 self._raised = raised
                 self.asked = True
             return not self.asked
-        return may_go_on
+        return may_continue

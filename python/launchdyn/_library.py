@@ -71,7 +71,7 @@ class ld_event(Structure):
     _fields_ = [("kind", c_int), ("t", c_double), ("rocket", c_int), ("part", c_int)]
 
 
-#: Of ld_run_options: told the share done, returns whether to go on.
+#: Of ld_run_options: gets the share done, returns whether to continue.
 SHARE_TOLD = CFUNCTYPE(c_bool, c_void_p, c_double)
 
 
@@ -85,7 +85,7 @@ class ld_study_counts(Structure):
                 ("failed", c_int64), ("now", c_int64)]
 
 
-#: Of ld_study_options: told how far it is; asked whether to go on, as ld_watch is.
+#: Of ld_study_options: gets how far it is; asked whether to continue, as ld_watch is.
 COUNTS_TOLD = CFUNCTYPE(None, c_void_p, POINTER(ld_study_counts))
 GO_ON = CFUNCTYPE(c_bool, c_void_p)
 
@@ -151,7 +151,7 @@ class ld_response_wish(Structure):
     _fields_ = [("what", POINTER(c_char_p)), ("what_count", c_size_t), ("input", c_char_p),
                 ("from", c_double), ("to", c_double), ("slowest", c_double),
                 ("fastest", c_double), ("step", c_double), ("loop", c_char_p),
-                ("density", c_char_p), ("exit", c_bool), ("rub", c_bool), ("draws", c_int),
+                ("density", c_char_p), ("exit", c_bool), ("friction", c_bool), ("draws", c_int),
                 ("watch", POINTER(ld_watch))]
 
 
@@ -232,7 +232,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_run_row": (c_int, [_handle, _number, _error]),
     "ld_run_summary": (_handle, [_handle]),
     "ld_run_ignite": (c_int, [_handle, c_double, _error]),
-    "ld_run_tell_base": (c_int, [_handle, POINTER(ld_base_frame), _error]),
+    "ld_run_set_base": (c_int, [_handle, POINTER(ld_base_frame), _error]),
     "ld_run_base_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
     "ld_run_save": (c_int, [_handle, c_void_p, c_size_t, POINTER(c_size_t), _error]),
     "ld_run_load": (c_int, [_handle, POINTER(ld_run_options), c_void_p, c_size_t, _handles,
@@ -243,7 +243,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_vehicle_run_end": (None, [_handle]),
     "ld_vehicle_run_advance": (c_int, [_handle, c_double, _error]),
     "ld_vehicle_run_time": (c_double, [_handle]),
-    "ld_vehicle_run_tell_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
+    "ld_vehicle_run_set_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
     "ld_vehicle_run_wrench": (c_int, [_handle, POINTER(ld_base_wrench), _error]),
     "ld_vehicle_run_frame": (c_int, [_handle, POINTER(ld_base_frame), _error]),
     "ld_vehicle_run_columns": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
@@ -278,7 +278,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_response_create": (c_int, [_handle, c_double, c_double, _handles, _error]),
     "ld_response_free": (None, [_handle]),
     "ld_response_inputs": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
-    "ld_response_rub": (c_int, [_handle, c_bool, _error]),
+    "ld_response_friction": (c_int, [_handle, c_bool, _error]),
     "ld_response_columns": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
     "ld_response_choose": (c_int, [_handle, _texts, c_size_t, _error]),
     "ld_response_gain": (c_int, [_handle, c_double, _text, c_void_p, c_size_t, c_void_p, _error]),
@@ -345,7 +345,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
 # ---- where it is
 
 def candidates() -> Iterator[str]:
-    """Where the library is looked for, in this order: where LAUNCHDYN_LIBRARY says, in the
+    """Where the library is searched, in this order: where LAUNCHDYN_LIBRARY says, in the
     package's folder, in the build folder of the tree that holds it, in the installation that
     holds it, where the system finds it."""
     named = os.environ.get("LAUNCHDYN_LIBRARY")
@@ -374,7 +374,7 @@ def check_version(number: int, text: str) -> None:
 
 
 def load() -> ctypes.CDLL:
-    """Loads the first library that is there and tells ctypes its functions."""
+    """Loads the first library that is there and declares its functions to ctypes."""
     tried = []
     for path in candidates():
         try:

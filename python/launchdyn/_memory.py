@@ -98,7 +98,7 @@ def text_of(text: Optional[bytes]) -> str:
 
 
 def coded(text: str) -> bytes:
-    """A text for the library. Raises TypeError for what is no text, ValueError for one with a NUL
+    """A text for the library. Raises TypeError for what is not text, ValueError for one with a NUL
     character, at which it would end there."""
     if not isinstance(text, str):
         raise TypeError(f"expected a text (str), found {type(text).__name__}")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Optional, TextIO, Union
 if TYPE_CHECKING:
     from .study import Counts
 
-#: What callers may say: a function that is told how far it is; True: a bar, where somebody sees it.
+#: What callers may give: a function that gets how far it is; True: a bar on a terminal.
 Progress = Union[Callable[[Any], Any], bool, None]
 #: Between two lines, in seconds.
 PATIENCE = 0.2
@@ -64,7 +64,7 @@ def _seen() -> Optional[TextIO]:
 
 @contextlib.contextmanager
 def followed(progress: Progress) -> Iterator[Optional[Callable[[Any], Any]]]:
-    """The function to be told how far it is; None: nobody wants to know."""
+    """The function that gets how far it is; None: none."""
     stream = _seen() if progress is True else None
     if not stream:
         yield progress if callable(progress) else None

@@ -24,14 +24,14 @@ class Status(enum.IntEnum):
     FILE = 2  #: a file cannot be written
     MEMORY = 3  #: no memory
     NUMERIC = 4  #: the numerics failed: NaN, singular matrix, no convergence
-    LAUNCH = 5  #: the launch cannot go on: stuck, jammed, never released
+    LAUNCH = 5  #: the launch cannot continue: stuck, jammed, never released
     INTERRUPTED = 6  #: stopped on request
     MISSING = 7  #: a program or a feature needed is not there
 
 
 @dataclass(frozen=True)
 class Message:
-    """One thing wrong with a scenario, or hardly meant."""
+    """One thing wrong with a scenario, or implausible."""
 
     file: str  #: that holds the key; "--set" for a value set by its path
     line: int  #: from 1; 0 where there is none; of a value set by its path, its number from 1
@@ -121,7 +121,7 @@ class NumericError(LaunchdynError, ArithmeticError):
 
 
 class LaunchError(LaunchdynError):
-    """The launch cannot go on: stuck, jammed, never released, beyond a table."""
+    """The launch cannot continue: stuck, jammed, never released, beyond a table."""
 
     code = Status.LAUNCH
 

@@ -72,13 +72,14 @@ class Response(Held):
 
     _over = "the response is closed"
 
-    def __init__(self, model: Handle, slowest: float, fastest: float, rub: bool) -> None:
+    def __init__(self, model: Handle, slowest: float, fastest: float, friction: bool) -> None:
         error, pointer, own = ld_error(), ctypes.c_void_p(), ctypes.c_double()
         check(library.ld_response_create(model.pointer, slowest, fastest, ctypes.byref(pointer),
                                          ctypes.byref(error)), error, model.pointer)
         self._model = model
         super().__init__(Handle(pointer.value, library.ld_response_free, model))
-        check(library.ld_response_rub(pointer, rub, ctypes.byref(error)), error, model.pointer)
+        check(library.ld_response_friction(pointer, friction, ctypes.byref(error)), error,
+              model.pointer)
         vehicle = library.ld_model_has_vehicle(model.pointer)
         if vehicle:
             check(library.ld_model_number(model.pointer, b"base.speed", ctypes.byref(own),

@@ -1,4 +1,4 @@
-"""Scenarios: read, set, looked at, run."""
+"""Scenarios: read, set, examined, run."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Scenario:
     def from_text(cls, text: str, sets: Sets = None, name: str = "text",
                   folder: PathLike = ".") -> Scenario:
         """Reads a text; `name` stands for the file in messages, `folder` is where files that it
-        names are looked for."""
+        names are searched."""
         items, given = texts(set_texts(sets)), coded(text)
         return cls(read_model(library.ld_scenario_read_text, given, len(given), coded(name),
                               coded_path(folder), items, len(items)))
@@ -191,7 +191,7 @@ class Scenario:
         return printed(lambda to: library.ld_model_describe(self.handle.pointer, to))
 
     def notes(self) -> list[Message]:
-        """What is allowed but hardly meant."""
+        """What is allowed but implausible."""
         messages = ld_messages()
         source = library.ld_model_source(self.handle.pointer)
         check_messages(library.ld_scenario_notes(source, 0, 0, ctypes.byref(messages)), messages)
@@ -239,14 +239,14 @@ class Scenario:
         """Begins a run that is stepped; see Simulation.begin()."""
         return self.simulation().begin(base, out, csv)
 
-    # ---- looked at without runs
+    # ---- examined without runs
 
     def response(self, slowest: float = math.nan, fastest: float = math.nan,
-                 rub: bool = False) -> Response:
+                 friction: bool = False) -> Response:
         """Its linear response (docs/response.md), of a vehicle at any speed from `slowest` to
-        `fastest` [m/s], NaN: its own; `rub`: friction of the hinges linearised for the motion on
-        the road."""
-        return Response(self.handle, slowest, fastest, rub)
+        `fastest` [m/s], NaN: its own; `friction`: of the hinges, linearised for the motion on the
+        road."""
+        return Response(self.handle, slowest, fastest, friction)
 
     def loop(self, hinge: str) -> Loop:
         """The loop that holds a hinge of its vehicle, "azimuth" or "elevation", opened."""
@@ -255,14 +255,14 @@ class Scenario:
     def response_view(self, *what: str, input: Optional[str] = None, start: float = math.nan,
                       end: float = math.nan, speeds: Optional[Sequence[float]] = None,
                       loop: Optional[str] = None, density: Optional[PathLike] = None,
-                      exit: bool = False, rub: bool = False, draws: int = 0) -> View:
+                      exit: bool = False, friction: bool = False, draws: int = 0) -> View:
         """Its linear response as `launchdyn response` shows it: of columns `what` on the road, or
         to an `input`, from `start` to `end` [Hz], over `speeds` (slowest, fastest, step) [m/s];
         of a hinge's `loop`; with the `density` of a random input from a CSV file; of the `exit`."""
         slowest, fastest, step = speeds or (math.nan,) * 3
         return View("response", self.handle, ld_response_wish(
             texts(what), len(what), _coded(input), start, end, slowest, fastest, step,
-            _coded(loop), coded_path(density) if density else None, exit, rub, draws))
+            _coded(loop), coded_path(density) if density else None, exit, friction, draws))
 
     def road_view(self, start: float = math.nan, end: float = math.nan,
                   step: float = math.nan) -> View:

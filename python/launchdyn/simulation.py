@@ -94,7 +94,7 @@ class Pole(NamedTuple):
 
 
 class _Recording:
-    """Where the rows of a run go: into memory and, where wanted, into a folder."""
+    """Where the rows of a run go: into memory and, where requested, into a folder."""
 
     def __init__(self, model: Handle, out: Optional[PathLike], csv: bool) -> None:
         self._model, self._output = model, None
@@ -157,7 +157,7 @@ class Simulation:
             progress: Progress = None, base: Optional[BaseFrame] = None) -> Result:
         """Runs from the start to the end that the scenario asks for.
 
-        `out` is a folder for results (docs/results.md), with `csv` as CSV too; `progress` is told
+        `out` is a folder for results (docs/results.md), with `csv` as CSV too; `progress` gets
         the share done, 0 to 1, of the launch and then of each flight, True: a bar in a terminal or
         a notebook; `base` is where the base is at the start (base.kind: external).
         Raises LaunchError, NumericError with what it had until then as `result`; InputError.
@@ -178,13 +178,13 @@ class Simulation:
         return Run(self, base, out, csv)
 
     def load(self, saved: bytes) -> Run:
-        """Goes on where a run that was saved stood (Run.save()), with the same bits."""
+        """Continues where a run that was saved stood (Run.save()), with the same bits."""
         if not isinstance(saved, bytes):
             raise TypeError(f"expected the bytes of Run.save(), found {type(saved).__name__}")
         return Run(self, saved=saved)
 
     def begin_vehicle(self) -> VehicleRun:
-        """Begins a run of the scenario's vehicle alone, stepped under a wrench that it is told."""
+        """Begins a run of the scenario's vehicle alone, stepped under a given wrench."""
         return VehicleRun(self)
 
     def tube_modes(self, most: int = 64) -> list[Mode]:
@@ -217,7 +217,7 @@ def _columns(tell: Any, simulation: Handle) -> Columns:
 
 
 def _is_told(model: Handle) -> bool:
-    """Whether its base is told where it is."""
+    """Whether its base is externally driven."""
     error, kind = ld_error(), ctypes.create_string_buffer(64)
     unknown = library.ld_model_text(model.pointer, b"base.kind", kind, len(kind),
                                     ctypes.byref(error))  # a flight alone has none
@@ -229,7 +229,7 @@ def _give_up(pointer: int) -> None:
 
 
 class _Asked:
-    """What the library asks while it runs: whether to go on."""
+    """What the library asks while it runs: whether to continue."""
 
     def __init__(self) -> None:
         self.go_on: Callable[[Any, float], bool] = lambda _, share: True
@@ -239,8 +239,8 @@ class _Asked:
 
 
 class Run(Held):
-    """A run that is stepped: taken forward to a time or to the next event, looked at, told when to
-    ignite or where its base is, saved, ended. `run["tip.y"]` is a column at the present time.
+    """A run that is stepped: taken forward to a time or to the next event, read, given its
+    ignition or its base, saved, ended. `run["tip.y"]` is a column at the present time.
     A context manager that gives up what was not ended. One thread at a time: others wait."""
 
     _over = "the run has ended"
@@ -276,13 +276,13 @@ class Run(Held):
 
     def _next(self, t: float) -> float:
         """Up to where the library goes in one call: Ctrl-C is heard in between, and steps change
-        nothing, but where a base that is told ends them."""
+        nothing, but where an externally driven base ends them."""
         piece = math.inf if self._is_told else float(library.ld_run_time(self._pointer)) + PIECE
         return min(t, piece)
 
     def advance(self, t: float = math.inf) -> None:
-        """Goes on to time t [s], or to the end of the launch where that comes before. Ctrl-C stops
-        it in between, and it can go on from there."""
+        """Continues to time t [s], or to the end of the launch where that comes before. Ctrl-C
+        stops it in between, and it can continue from there."""
         error, to, status = ld_error(), -math.inf, int(Status.OK)
         with self._lock:
             self._event = ld_event()
@@ -294,8 +294,8 @@ class Run(Held):
         self._check(status, error)
 
     def advance_to_event(self, t: float = math.inf) -> Optional[Event]:
-        """Goes on to the next event, but not beyond time t [s]; None: there was none up to t, or
-        the end has been told. Ctrl-C as in advance(): the event is told by the next call."""
+        """Continues to the next event, but not beyond time t [s]; None: there was none up to t, or
+        the end has been reported. Ctrl-C as in advance(): the next call reports the event."""
         error, to, status = ld_error(), -math.inf, int(Status.OK)
         with self._lock:
             if self._told_end:
@@ -311,7 +311,7 @@ class Run(Held):
         return event if event.kind else None
 
     def events(self, t: float = math.inf) -> Iterator[Event]:
-        """Goes on from event to event up to time t [s], or to the end of the launch: within the
+        """Continues from event to event up to time t [s], or to the end of the launch: within the
         loop the run stands at the event."""
         while event := self.advance_to_event(t):
             yield event
@@ -328,7 +328,7 @@ class Run(Held):
         with self._lock:
             return bool(library.ld_run_is_finished(self._pointer))
 
-    # ---- looked at
+    # ---- read
 
     def __getitem__(self, name: str) -> float:
         """A column at the present time, in SI."""
@@ -353,7 +353,7 @@ class Run(Held):
         return values
 
     def quantities(self) -> dict[str, Quantity]:
-        """Numbers of the summary so far, in SI, by their names; energies, notes, flights are
+        """Numbers of the summary so far, in SI, by their names; energies, warnings, flights are
         there at the end alone."""
         with self._lock:
             found = quantities_at(library.ld_run_summary(self._pointer))
@@ -371,17 +371,17 @@ class Run(Held):
     # ---- inputs
 
     def ignite(self, t: float) -> None:
-        """Lights the rocket that stands in the tube at time t [s]; inf: not until told anew."""
+        """Ignites the rocket that stands in the tube at time t [s]; inf: not until set again."""
         error = ld_error()
         with self._lock:
             status = library.ld_run_ignite(self._pointer, t, ctypes.byref(error))
         self._check(status, error)
 
-    def tell_base(self, base: BaseFrame) -> None:
-        """Tells where the base is at the present time and how it moves (base.kind: external)."""
+    def describe_base(self, base: BaseFrame) -> None:
+        """Sets where the base is at the present time and how it moves (base.kind: external)."""
         error, frame = ld_error(), base._struct()
         with self._lock:
-            status = library.ld_run_tell_base(self._pointer, ctypes.byref(frame),
+            status = library.ld_run_set_base(self._pointer, ctypes.byref(frame),
                                               ctypes.byref(error))
         self._check(status, error)
 
@@ -390,7 +390,7 @@ class Run(Held):
     def save(self) -> bytes:
         """All that the rest depends on, for Simulation.load() here or in another process."""
         error, size = ld_error(), ctypes.c_size_t()
-        room = 0  # it says how much it wants
+        room = 0  # it says how much it requires
         with self._lock:
             while True:
                 saved = ctypes.create_string_buffer(room)
@@ -403,8 +403,8 @@ class Run(Held):
         return saved.raw[:size.value]
 
     def end(self, progress: Progress = None) -> Result:
-        """Ends it: flies the rockets that left their tubes where the scenario wants it. A launch
-        that is not over ends where it is, and Result.stopped says so. `progress` is told the share
+        """Ends it: flies the rockets that left their tubes where the scenario requires it. A launch
+        that is not over ends where it is, and Result.stopped says so. `progress` gets the share
         of each flight, and Ctrl-C stops it, as in Simulation.run()."""
         error = ld_error()
         with self._lock, Interrupt() as interrupt, followed(progress) as share_told:
@@ -427,7 +427,7 @@ class Run(Held):
 
 
 class VehicleRun(Held):
-    """A run of a scenario's vehicle alone, stepped under a wrench that it is told. A context
+    """A run of a scenario's vehicle alone, stepped under a given wrench. A context
     manager; it need not be closed. One thread at a time: others wait."""
 
     _over = "the run has ended"
@@ -446,7 +446,7 @@ class VehicleRun(Held):
         check(status, error, self.simulation.model.pointer)
 
     def advance(self, t: float) -> None:
-        """Goes on to time t [s]; it has no end of its own."""
+        """Continues to time t [s]; it has no end of its own."""
         self._call(library.ld_vehicle_run_advance, t)
 
     @property
@@ -456,16 +456,16 @@ class VehicleRun(Held):
             return float(library.ld_vehicle_run_time(self._pointer))
 
     def frame(self) -> BaseFrame:
-        """Where the vehicle holds the undeformed tube, in SI, for Run.tell_base()."""
+        """Where the vehicle holds the undeformed tube, in SI, for Run.describe_base()."""
         frame = ld_base_frame()
         self._call(library.ld_vehicle_run_frame, ctypes.byref(frame))
         return BaseFrame(tuple(frame.position), tuple(frame.quaternion), tuple(frame.velocity),
                          tuple(frame.rate))
 
     def tell_wrench(self, wrench: Wrench) -> None:
-        """Tells force [N] and moment [N m] of the tube on the vehicle at the present time."""
+        """Sets force [N] and moment [N m] of the tube on the vehicle at the present time."""
         told = ld_base_wrench(tuple(wrench.force), tuple(wrench.moment))
-        self._call(library.ld_vehicle_run_tell_wrench, ctypes.byref(told))
+        self._call(library.ld_vehicle_run_set_wrench, ctypes.byref(told))
 
     @property
     def columns(self) -> Columns:

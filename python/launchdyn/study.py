@@ -70,7 +70,7 @@ class Footprint:
     """For range safety: the region in which a share of landings lies (docs/study.md)."""
 
     share: float  #: of further landings that lie within, on average
-    needed: float  #: independent landings that it wants
+    needed: float  #: independent landings that it requires
     independent: float  #: how many tell the share as well as those that are there
     stated: bool  #: there are as many as are needed; else what follows is NaN
     content: Estimate  #: share of further landings that lie within
@@ -138,9 +138,9 @@ class Study:
             progress: Progress = None) -> StudyData:
         """Runs the samples that the folder does not hold yet, and opens what it then holds.
 
-        `progress` is told the Counts now and then, on the caller's thread; True: a line in a
+        `progress` gets the Counts now and then, on the caller's thread; True: a line in a
         terminal or a notebook. Ctrl-C, or whatever
-        `progress` raises, stops the study, which keeps what it has: run again, it goes on. The
+        `progress` raises, stops the study, which keeps what it has: run again, it continues. The
         results have the same bits for any number of threads and any interruption.
         """
         self._run(folder, threads, progress, 0, 0)
@@ -218,7 +218,7 @@ class _Work:
                  shards: int) -> None:
         self.latest, self.counts, self.error = ld_study_counts(), ld_study_counts(), ld_error()
         self.status = int(Status.OK)
-        self.done = -1  # nothing has been told
+        self.done = -1  # nothing has been reported
         self._stopped = False
 
         def told(_: Any, counts: Any) -> None:
@@ -226,11 +226,11 @@ class _Work:
             ctypes.pointer(latest)[0] = counts[0]
             self.latest, self.done = latest, latest.done
 
-        def may_go_on(_: Any) -> bool:
+        def may_continue(_: Any) -> bool:
             return not self._stopped
 
         self._options = ld_study_options(threads=threads, shard=shard, shards=shards,
-                                         progress=COUNTS_TOLD(told), go_on=GO_ON(may_go_on))
+                                         progress=COUNTS_TOLD(told), go_on=GO_ON(may_continue))
         self._thread = threading.Thread(target=self._run, args=(study, coded_path(folder)))
 
     def _run(self, study: Handle, folder: bytes) -> None:
@@ -384,7 +384,7 @@ class StudyData(Held):
     def to_xarray(self, *names: str) -> xarray.Dataset:
         """Columns (all, without names) as a data set over `point`, `sample`, `rocket`, each from 1,
         in SI, with `units`; of what is one for all rockets over point and sample; NaN where there
-        is no value. The k-th samples of all points have the same draws; `number` is the one that
+        is not a value. The k-th samples of all points have the same draws; `number` is the one that
         each has in the study. Swept keys are coordinates of the points, as texts."""
         columns, points = self.columns, self.points
         found = [(at, name, self.values(name, point=point.number))

@@ -88,7 +88,7 @@ static int wait_for(pid_t child, const sigset_t *waited)
     return status;
 }
 
-static ld_status died(const child_work *work, int number, ld_error *error)
+static ld_status fail_by_signal(const child_work *work, int number, ld_error *error)
 {
     const char *written = work->written[0];
     if (*work->read) // what it writes beside is not foreign
@@ -113,7 +113,7 @@ static void clear_up(const child_work *work)
     lock_file_remove(work->lock, lock);
 }
 
-static ld_status judge(const child_work *work, int status, int *code, ld_error *error)
+static ld_status judge_status(const child_work *work, int status, int *code, ld_error *error)
 {
     *code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     if (WIFEXITED(status) && work->done)
@@ -122,7 +122,7 @@ static ld_status judge(const child_work *work, int status, int *code, ld_error *
     if (WIFEXITED(status))
         return ld_fail(error, LD_ERR_FILE,
                        "a library ended the process (code %d); memory may have run out", *code);
-    return asks_to_end(WTERMSIG(status)) ? LD_OK : died(work, WTERMSIG(status), error);
+    return asks_to_end(WTERMSIG(status)) ? LD_OK : fail_by_signal(work, WTERMSIG(status), error);
 }
 
 // ---- both ----
@@ -158,7 +158,7 @@ ld_status ld_child_run(int (*work)(void *data), void *data, int *code, ld_error 
     pid_t child = start(work, data, shared, &before);
     int number = errno;
     ld_status status =
-        child > 0 ? judge(shared, wait_for(child, &waited), code, error)
+        child > 0 ? judge_status(shared, wait_for(child, &waited), code, error)
                   : ld_fail(error, LD_ERR_MISSING, "cannot start a process: %s", strerror(number));
     while (sigtimedwait(&waited, NULL, &(struct timespec){0}) > 0)
         ; // what the child has had, too

@@ -13,8 +13,8 @@ typedef struct part_file {
 } part_file;
 
 // Makes an empty file NAME.part, or NAME.2.part and so on where that name is taken: by another
-// program, or by one that was killed. Where NAME is no regular file, as /dev/stdout, it is written
-// itself.
+// program, or by one that was killed. Where NAME is not a regular file, as /dev/stdout, it is
+// written itself.
 // @return LD_OK; LD_ERR_INPUT, the name is too long; LD_ERR_FILE
 ld_status part_file_begin(part_file *self, const char *name, ld_error *error);
 

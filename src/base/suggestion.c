@@ -71,7 +71,7 @@ const char *ld_current_name(const char *former, char *name, size_t size)
     return NULL;
 }
 
-// Whether the name is what the wanted one is called now.
+// Whether the name is what the requested one is called now.
 static bool is_renamed(const char *wanted, const char *name)
 {
     char now[256];

@@ -19,7 +19,7 @@ static bool refuse(text_lines *lines, const char *sentence)
 }
 
 // Copies the next line; false at the end.
-static bool take(text_lines *lines)
+static bool read_line(text_lines *lines)
 {
     lines->count = 0;
     if (lines->next >= lines->end)
@@ -67,7 +67,7 @@ static bool cut(text_lines *lines, bool commas)
 
 bool text_lines_next(text_lines *lines, char comment, bool commas)
 {
-    while (take(lines)) {
+    while (read_line(lines)) {
         if (comment == ';')
             lines->text[strcspn(lines->text, ";")] = '\0';
         char first = lines->text[strspn(lines->text, blanks)];

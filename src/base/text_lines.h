@@ -22,8 +22,8 @@ text_lines text_lines_begin(const char *text, size_t length);
 
 // The next line that is neither blank nor begins with the sign of a comment, its fields cut at
 // blanks or at commas and trimmed. The comment of a ';' begins anywhere in a line. False at the
-// end, and where the line is no text, too long, has too many fields, or semicolons where commas are
-// expected: then `wrong` is a sentence, and no line comes any more.
+// end, and where the line is not text, too long, has too many fields, or semicolons where commas
+// are expected: then `wrong` is a sentence, and no line comes any more.
 bool text_lines_next(text_lines *lines, char comment, bool commas);
 
 // Where a field of the line at hand begins, from 1; 1 where the line has none of that number.

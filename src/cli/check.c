@@ -20,12 +20,12 @@ typedef struct findings {
     ld_status status;
     ld_messages errors, notes;
     ld_error error;
-    bool refused; // its notes are errors
+    bool refused; // its warnings are errors
     int point;    // of the sweep, at which it is wrong; 0: none
 } findings;
 
 // Whether a run can begin: all that it does before its first step. Where a base is that a program
-// tells is not known yet.
+// reports is not known yet.
 static void check_start(const ld_model *model, findings *found)
 {
     ld_simulation *simulation = NULL;
@@ -79,7 +79,7 @@ static void check_points(const ld_model *model, findings *found)
     }
 }
 
-// Notes on all points; where one of them is wrong, none.
+// Warnings on all points; where one of them is wrong, none.
 static void take_notes(const ld_model *model, bool strict, findings *found)
 {
     int points = ld_scenario_axes(model) > 0 ? ld_scenario_points(model) : 0;
@@ -93,7 +93,7 @@ static void take_notes(const ld_model *model, bool strict, findings *found)
 }
 
 // Reads and checks; NULL where the scenario cannot be read.
-static ld_model *look(const char *file, const check_wishes *wishes, findings *found)
+static ld_model *check_file(const char *file, const check_wishes *wishes, findings *found)
 {
     ld_model *model = NULL;
     found->status = command_read_file(file, wishes->sets, &model, &found->errors);
@@ -149,7 +149,7 @@ int command_check(const command *self, int argc, char **argv)
     if (!command_line_read(&line, self, argc, argv, options, 1, &code))
         return code;
     findings found = {.error = {LD_ERR_MEMORY, "no memory"}};
-    ld_model *model = look(line.word[0], &wishes, &found);
+    ld_model *model = check_file(line.word[0], &wishes, &found);
     if (wishes.json)
         print_json(model, &found);
     else

@@ -140,7 +140,7 @@ int command_end(int code)
     return code ? code : EXIT_SYSTEM;
 }
 
-int command_apart(int (*work)(void *data), void *data)
+int command_in_child(int (*work)(void *data), void *data)
 {
     int code = 0;
     ld_error error;
@@ -228,7 +228,7 @@ ld_status command_read_study_source(ld_source *source, ld_study **study)
     return print_messages(ld_study_read_source(source, study, &messages), &messages);
 }
 
-void command_tell_difference(const char *folder, const ld_origin *origin)
+void command_warn_difference(const char *folder, const ld_origin *origin)
 {
     char text[1024];
     if (ld_origin_differs(origin, text, sizeof text))

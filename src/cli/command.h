@@ -18,7 +18,7 @@
 enum {
     EXIT_LAUNCH = 1, // launch or flight cannot be computed to its end: what there is was written
     EXIT_INPUT = 2,  // what was given is wrong: words, scenario, tables, folders of results
-    EXIT_SYSTEM = 3, // what is needed is not to be had: room on a disk, memory, threads, gnuplot
+    EXIT_SYSTEM = 3, // what is needed is not available: room on a disk, memory, threads, gnuplot
 };
 
 // Complains of an error of a simulation or a run of the model, at its place in the scenario where
@@ -34,7 +34,7 @@ int command_begin(void);
 int command_end(int code);
 
 // Does `work` in a process of its own (launchdyn/child.h). Returns the exit code.
-int command_apart(int (*work)(void *data), void *data);
+int command_in_child(int (*work)(void *data), void *data);
 
 // The exit code that belongs to a status.
 int command_code(ld_status status);
@@ -82,7 +82,7 @@ int command_wind(const command *self, int argc, char **argv);
 int *command_quiet_flag(void);
 int *command_verbose_flag(void);
 bool command_is_quiet(void);
-FILE *command_text(void); // stdout; with --quiet one that nobody reads
+FILE *command_text(void); // stdout; with --quiet one that no one reads
 
 // With --verbose prints "launchdyn: text: 3.1 ms" on stderr, the time since the last such line or
 // the start.
@@ -90,8 +90,8 @@ void command_step(const char *format, ...) LD_PRINTF(1, 2);
 
 enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 
-// Reads the options and `count` words. Returns true to go on, then options_end() is due; false to
-// end with *code.
+// Reads the options and `count` words. Returns true to continue, then options_end() is due; false
+// to end with *code.
 bool command_line_read(command_line *line, const command *self, int argc, char **argv,
                        const command_option *options, int count, int *code);
 
@@ -106,7 +106,7 @@ void command_tell_renamed(const char *list);
 int command_fail(ld_status status, const ld_error *error);
 
 // Says on stderr what is another program than the one that made the results in a folder.
-void command_tell_difference(const char *folder, const ld_origin *origin);
+void command_warn_difference(const char *folder, const ld_origin *origin);
 
 // Writes the report of the results in `folder` (file NULL: into it), says what is missing in them
 // and, unless `silent`, prints what was written. Returns the exit code.
@@ -128,7 +128,7 @@ ld_status command_read_source(ld_source *source, int point, ld_model **model);
 ld_status command_read_study(const char *file, char **sets, ld_study **study);
 ld_status command_read_study_source(ld_source *source, ld_study **study);
 
-// Prints notes on points `from` to `to` of the sweep of texts: as warnings, which --quiet leaves
+// Prints warnings on points `from` to `to` of the sweep of texts: as warnings, which --quiet leaves
 // out, or where `strict` as errors; where one of the points is wrong, none. Returns 0, or the exit
 // code to end with.
 int command_take_notes(ld_source *source, int from, int to, bool strict);

@@ -16,7 +16,7 @@ static struct {
     int count;
     char **word;
     const char *last;              // word[count - 1]
-    const char *given[MOST_WORDS]; // words before it that are no options
+    const char *given[MOST_WORDS]; // words before it that are not options
     int given_count;
     char seen[1 << 16]; // what was offered, a line each
 } line;
@@ -210,7 +210,7 @@ static const command_option *find_option(const command_option *options, const ch
 }
 
 // What stands before the last word: words, and the option that waits for its argument, or NULL.
-static const command_option *look_back(const command_option *options)
+static const command_option *previous_option(const command_option *options)
 {
     const command_option *waits = NULL;
     for (int i = 1; i + 1 < line.count; i++) {
@@ -271,7 +271,7 @@ static void offer_word(const command *self)
 
 void complete_print(const command *self, const command_option *options)
 {
-    const command_option *option = look_back(options);
+    const command_option *option = previous_option(options);
     const char *equals = strchr(line.last, '=');
     size_t from = equals ? (size_t)(equals + 1 - line.last) : 0;
     if (option) {

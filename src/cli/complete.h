@@ -1,6 +1,6 @@
-// What may stand in place of the last word of a line: verbs, options, their arguments, keys of the
+// What is allowed in place of the last word of a line: verbs, options, their arguments, keys of the
 // scenario, results. A line each for the shell: the whole word, a tab and what it is; ":files" and
-// ":folders" ask for those of the shell. A word that ends with . = or , goes on.
+// ":folders" ask for those of the shell. A word that ends with . = or , continues.
 #ifndef LD_CLI_COMPLETE_H
 #define LD_CLI_COMPLETE_H
 

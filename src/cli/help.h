@@ -1,4 +1,4 @@
-// What is told of a command: as --help prints it, or in another form made of the same.
+// What is reported of a command: as --help prints it, or in another form made of the same.
 #ifndef LD_CLI_HELP_H
 #define LD_CLI_HELP_H
 
@@ -17,7 +17,7 @@ struct command {
     const char *examples;  // lines "command|what it does"; NULL: none
     void (*more)(void);    // prints what follows `about`, as it is; NULL: nothing
     int (*run)(const command *self, int argc, char **argv);
-    bool apart; // it reads or writes files by libraries that may crash on it; it has a page
+    bool in_child; // it reads or writes files by libraries that may crash on it; it has a page
 };
 
 // "launchdyn run", "launchdyn-mpi study": how it is called.

@@ -19,7 +19,7 @@ static const command commands[] = {
      .examples = "launchdyn new --guide rail --base ship --out scenario.yaml|A rail on a ship\n"
                  "launchdyn new|Ask for everything",
      .run = command_new,
-     .apart = true},
+     .in_child = true},
     {.name = "run",
      .arguments = "FILE",
      .summary = "Simulate the launch that a scenario file describes",
@@ -30,7 +30,7 @@ static const command commands[] = {
                  "launchdyn run scenario.yaml --set rocket.mass='61 kg'|With another mass\n"
                  "launchdyn run --again out --out again|Repeat the run stored in out",
      .run = command_run,
-     .apart = true},
+     .in_child = true},
     {.name = "study",
      .arguments = "FILE | show DIR | export DIR | merge DIR",
      .summary = "Run a Monte Carlo study or a sweep, or show its results",
@@ -47,7 +47,7 @@ static const command commands[] = {
          "results\n"
          "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,
-     .apart = true},
+     .in_child = true},
     {.name = "check",
      .arguments = "FILE",
      .summary = "Check a scenario file and print the model in SI units",
@@ -57,50 +57,50 @@ static const command commands[] = {
          "launchdyn check scenario.yaml|Print all errors or the model\n"
          "launchdyn check scenario.yaml --json --strict|Print JSON; treat warnings as errors",
      .run = command_check,
-     .apart = true},
+     .in_child = true},
     {.name = "modes",
      .arguments = "FILE",
      .summary = "List natural frequencies and damping",
      .about = "Lists the modes of tube and tail on their supports with the base fixed, and those "
               "of the whole system about its equilibrium.",
      .run = command_modes,
-     .apart = true},
+     .in_child = true},
     {.name = "plot",
      .arguments = "DIR...",
      .summary = "Draw figures of one run, or of several runs overlaid",
      .examples = "launchdyn plot out --what tip,contact -o figure.svg|Two figures of a run",
      .more = command_plot_figures,
      .run = command_plot,
-     .apart = true},
+     .in_child = true},
     {.name = "report",
      .arguments = "DIR...",
      .summary = "Write one HTML file with the results of runs or studies; it works offline",
      .examples = "launchdyn report out|Write out/report.html",
      .run = command_report,
-     .apart = true},
+     .in_child = true},
     {.name = "fmu",
      .arguments = "export FILE",
      .summary = "Write a Functional Mock-up Unit of the launch, for other simulators",
      .examples = "launchdyn fmu export scenario.yaml --out launch.fmu|The whole launch, FMI 3.0",
      .run = command_fmu,
-     .apart = true},
+     .in_child = true},
     {.name = "road",
      .arguments = "FILE",
      .summary = "Show profile and spectrum of the vehicle's road",
      .run = command_road,
-     .apart = true},
+     .in_child = true},
     {.name = "response",
      .arguments = "FILE",
      .summary = "Show the linear response to road, base motion, commands and forces",
      .about = "Computes root mean squares, spectra and frequency responses of any column of the "
               "history. The equations are linearised about the equilibrium; no run is needed.",
      .run = command_response,
-     .apart = true},
+     .in_child = true},
     {.name = "wind",
      .arguments = "FILE",
      .summary = "Show profile, gusts and turbulence of the wind",
      .run = command_wind,
-     .apart = true},
+     .in_child = true},
     {.name = "version", .arguments = "", .summary = "Print the version", .run = command_version},
     {.name = "help",
      .arguments = "[COMMAND]",
@@ -165,7 +165,7 @@ static int do_call(void *data)
 static int start(const command *chosen, int argc, char **argv)
 {
     call words = {chosen, argc, argv};
-    return chosen->apart ? command_apart(do_call, &words) : do_call(&words);
+    return chosen->in_child ? command_in_child(do_call, &words) : do_call(&words);
 }
 
 static bool asks_for_help(const char *word)
@@ -187,7 +187,7 @@ static int print_page(int argc, char **argv)
     if (argc > 2 && !chosen)
         return complain_unknown(argv[2]);
     help_choose(page_print);
-    if (chosen && chosen->apart)
+    if (chosen && chosen->in_child)
         return help_of(chosen, argv[0]);
     page_print_all(commands);
     return 0;
@@ -205,13 +205,13 @@ static int command_help(const command *self, int argc, char **argv)
     const command *chosen = find(argv[1]);
     if (!chosen)
         return complain_unknown(argv[1]);
-    if (chosen->apart)
+    if (chosen->in_child)
         return help_of(chosen, argv[0]);
     print_commands(stdout);
     return 0;
 }
 
-// complete WORD...: what may stand in place of the last word, for shells.
+// complete WORD...: what is allowed in place of the last word, for shells.
 static int command_complete(int argc, char **argv)
 {
     complete_begin(argc - 1, argv + 1);
@@ -220,7 +220,7 @@ static int command_complete(int argc, char **argv)
             complete_offer(c->name, c->summary);
     const command *chosen = argc > 2 ? find(argv[1]) : NULL;
     help_choose(complete_print);
-    if (chosen && chosen->apart)
+    if (chosen && chosen->in_child)
         return help_of(chosen, argv[0]);
     for (const command *c = commands; c->name && chosen && chosen->run == command_help; c++)
         complete_offer(c->name, c->summary);

@@ -114,7 +114,7 @@ static int write_file(const new_wishes *self)
 }
 
 // "launchdyn check FILE" and what else may follow, as a shell takes it.
-static void tell_next(const char *file)
+static void print_next_commands(const char *file)
 {
     char visible[ANSWER];
     ld_visible_text(file, visible, sizeof visible);
@@ -146,7 +146,7 @@ static int make(new_wishes *self)
     if (!code)
         command_step("wrote %s", self->out);
     if (!code && !command_is_quiet())
-        tell_next(self->out);
+        print_next_commands(self->out);
     return code;
 }
 

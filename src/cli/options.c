@@ -63,7 +63,8 @@ static ld_status add_text(command_line *line, int argc, char ***texts, ld_error 
 }
 
 // Takes what stands after an option.
-static ld_status take(command_line *line, int argc, const command_option *option, ld_error *error)
+static ld_status read_value(command_line *line, int argc, const command_option *option,
+                            ld_error *error)
 {
     switch (option->kind) {
     case OPTION_FLAG:
@@ -119,7 +120,8 @@ static const command_option *find(const command_option *options, int found)
 }
 
 // What is wrong with the word that getopt stopped at.
-static ld_status refuse(const command_option *options, int found, const char *word, ld_error *error)
+static ld_status refuse_word(const command_option *options, int found, const char *word,
+                             ld_error *error)
 {
     const command_option *option = optopt ? find(options, optopt) : NULL;
     if (found == ':')
@@ -146,9 +148,9 @@ ld_status options_read(command_line *line, int argc, char **argv, const command_
         if (found == 1) // a word, kept among those that have been read
             argv[++line->count] = optarg;
         else if (found == '?' || found == ':')
-            status = refuse(options, found, argv[optind - 1], error);
+            status = refuse_word(options, found, argv[optind - 1], error);
         else
-            status = take(line, argc, find(options, found), error);
+            status = read_value(line, argc, find(options, found), error);
     for (; !status && !line->help && optind < argc; optind++) // after "--"
         argv[++line->count] = argv[optind];
     return status;

@@ -82,7 +82,7 @@ static const char *page_name(const command *self, char name[HELP_CALL])
     return name;
 }
 
-// The day of the sources where a packager tells it, else today.
+// The day of the sources where a packager reports it, else today.
 static void print_title(const char *name)
 {
     const char *told = getenv("SOURCE_DATE_EPOCH");
@@ -216,7 +216,7 @@ void page_print_all(const command *commands)
         stdout);
     print_section("COMMANDS");
     for (; commands->name; commands++) {
-        printf(commands->apart ? ".TP\n.BR launchdyn\\-%s (1)\n" : ".TP\n.B launchdyn %s\n",
+        printf(commands->in_child ? ".TP\n.BR launchdyn\\-%s (1)\n" : ".TP\n.B launchdyn %s\n",
                commands->name);
         print_prose(commands->summary);
         fputs(".\n", stdout);

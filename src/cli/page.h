@@ -1,4 +1,4 @@
-// Manual pages, in roff for man(1), of what --help tells.
+// Manual pages, in roff for man(1), of what --help reports.
 #ifndef LD_CLI_PAGE_H
 #define LD_CLI_PAGE_H
 

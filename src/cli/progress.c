@@ -67,7 +67,7 @@ bool progress_share(void *self, double share)
     return stop_signal == 0;
 }
 
-bool progress_go_on(void *self)
+bool progress_resume(void *self)
 {
     (void)self;
     return stop_signal == 0;

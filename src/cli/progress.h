@@ -19,9 +19,9 @@ void progress_start(run_progress *progress, bool quiet);
 // For ld_run_options.progress: false once a stop was asked for.
 bool progress_share(void *self, double share);
 
-// The same for ld_study_options: how many samples are done; whether to go on.
+// The same for ld_study_options: how many samples are done; whether to continue.
 void progress_samples(void *self, const ld_study_counts *counts);
-bool progress_go_on(void *self);
+bool progress_resume(void *self);
 
 // Takes the line away.
 void progress_end(run_progress *progress);

@@ -13,7 +13,7 @@ enum { MOST = 1024 };
 typedef struct response_wishes {
     char **sets;
     char *what, *speeds, *loop;
-    char *folder, *picture; // NULL: not wanted
+    char *folder, *picture; // NULL: not requested
     int list;
     ld_response_wish wish;
 } response_wishes;
@@ -92,7 +92,7 @@ int command_response(const command *self, int argc, char **argv)
 {
     response_wishes wishes = {.wish = {.from = NAN, .to = NAN, .step = NAN}};
     char *input = NULL, *density = NULL;
-    int of_exit = 0, rub = 0;
+    int of_exit = 0, friction = 0;
     int draws = 0;
     const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
@@ -112,7 +112,7 @@ int command_response(const command *self, int argc, char **argv)
          "For --exit: compute N launches (2 or more) with sampled phases of the road in place of "
          "the first order",
          "N"},
-        {"rub", '\0', OPTION_FLAG, &rub,
+        {"friction", '\0', OPTION_FLAG, &friction,
          "Linearise the friction of the hinges for the motion on the road; --exit always does",
          NULL},
         {"loop", '\0', OPTION_TEXT, &wishes.loop,
@@ -139,7 +139,7 @@ int command_response(const command *self, int argc, char **argv)
     wishes.wish.input = input;
     wishes.wish.density = density;
     wishes.wish.exit = of_exit;
-    wishes.wish.rub = rub;
+    wishes.wish.friction = friction;
     wishes.wish.draws = draws;
     wishes.wish.loop = wishes.loop;
     wishes.wish.what = names;

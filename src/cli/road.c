@@ -8,7 +8,7 @@
 
 typedef struct road_wishes {
     char **sets;
-    char *folder, *picture; // NULL: not wanted
+    char *folder, *picture; // NULL: not requested
     ld_stretch stretch;
 } road_wishes;
 

@@ -57,7 +57,7 @@ static ld_status simulate(ld_simulation *simulation, const ld_model *model,
     ld_status written = output ? ld_output_finish(output, summary, &problem) : LD_OK;
     if (output && !written)
         command_step("wrote %s", wishes->folder);
-    // of a start that is refused there is nothing to tell but the reason
+    // of a start that is refused there is nothing to report but the reason
     double steps = 0;
     bool refused =
         status && !ld_summary_number(summary, "statistics.steps", &steps, NULL) && !(steps > 0);
@@ -104,8 +104,8 @@ int run_model(const ld_model *model, void *data)
     return code ? code : failed;
 }
 
-// Runs what a scenario says, after notes on it.
-static int run_noted(const ld_model *model, void *data)
+// Runs what a scenario says, after warnings on it.
+static int run_with_warnings(const ld_model *model, void *data)
 {
     const run_wishes *wishes = data;
     int code = command_take_notes(ld_model_source(model), 0, 0, wishes->strict != 0);
@@ -139,7 +139,7 @@ static int run_again(const char *folder, run_wishes *wishes)
     } else if ((status = command_read_source(origin.source, origin.point, &model)) != LD_OK) {
         code = command_code(status);
     } else {
-        command_tell_difference(folder, &origin);
+        command_warn_difference(folder, &origin);
         code = command_take_notes(origin.source, origin.point, origin.point, wishes->strict != 0);
         if (!code)
             code = origin.sample > 0 ? run_sample(model, origin.sample, wishes)
@@ -161,7 +161,7 @@ static int run_words(const command *self, const command_line *line, const char *
     else if (line->count != 1)
         command_complain("run requires %s; see launchdyn run --help", self->arguments);
     else
-        return command_on_file(line->word[0], wishes->sets, run_noted, wishes);
+        return command_on_file(line->word[0], wishes->sets, run_with_warnings, wishes);
     return EXIT_INPUT;
 }
 

@@ -29,7 +29,7 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
                                 .shards = wishes->shards,
                                 .self = &progress,
                                 .progress = progress_samples,
-                                .go_on = progress_go_on};
+                                .go_on = progress_resume};
     ld_status status = run(study, wishes->run.folder, &options, &counts, &error);
     progress_end(&progress);
     command_step("ran %lld samples into %s", (long long)counts.now, wishes->run.folder);
@@ -103,7 +103,7 @@ static int study_again(const char *folder, study_wishes *wishes)
     } else if ((status = command_read_study_source(origin.source, &study)) != LD_OK) {
         code = command_code(status);
     } else {
-        command_tell_difference(folder, &origin);
+        command_warn_difference(folder, &origin);
         code = study_do(study, wishes);
     }
     ld_origin_free(&origin);

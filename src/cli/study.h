@@ -24,7 +24,7 @@ typedef struct study_wishes {
         {"out", 'o', OPTION_TEXT, &(wishes)->run.folder, "Folder of the study", "DIR"},            \
         COMMAND_STRICT(&(wishes)->run.strict)
 
-// Prints notes on all points of the study (command_take_notes()).
+// Prints warnings on all points of the study (command_take_notes()).
 int study_take_notes(const ld_study *study, const study_wishes *wishes);
 
 // ld_study_run(), or another that does the same.

@@ -8,7 +8,7 @@
 
 typedef struct wind_wishes {
     char **sets;
-    char *folder, *picture; // NULL: not wanted
+    char *folder, *picture; // NULL: not requested
     ld_wind_section section;
 } wind_wishes;
 

@@ -1,4 +1,4 @@
-// What the elements of the launching subsystem are given at an instant, and what they tell.
+// What the elements of the launching subsystem are given at an instant, and what they report.
 #ifndef LD_ELEMENTS_EXCHANGE_H
 #define LD_ELEMENTS_EXCHANGE_H
 

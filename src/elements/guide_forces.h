@@ -1,4 +1,4 @@
-// What acts on the tube in one evaluation, told apart by where it acts: the sums over what lies
+// What acts on the tube in one evaluation, distinguished by where it acts: the sums over what lies
 // beyond stations of the tube, and what each support puts on it.
 #ifndef LD_ELEMENTS_GUIDE_FORCES_H
 #define LD_ELEMENTS_GUIDE_FORCES_H

@@ -1,17 +1,17 @@
-// A frame that is known at instants alone: how it goes on until the next one.
+// A frame that is known at instants alone: how it continues until the next one.
 #ifndef LD_ELEMENTS_HELD_FRAME_H
 #define LD_ELEMENTS_HELD_FRAME_H
 
 #include "elements/base_frame.h"
 #include "math/vectors/rotation_vector.h"
 
-// As it was last told; it goes on with the acceleration that its last two velocities tell.
+// As it was last reported; it continues with the acceleration that its last two velocities report.
 typedef struct held_frame {
     base_frame last;
     v3 a, alpha; // [m/s2], [rad/s2] in I
 } held_frame;
 
-// Takes what is told `since` [s] after the last; 0: nothing of before goes on.
+// Takes what is reported `since` [s] after the last; 0: nothing of before continues.
 static inline void held_frame_take(held_frame *self, const base_frame *now, double since)
 {
     if (since > 0) {

@@ -1,15 +1,16 @@
-// A wrench that is known at instants alone: how it goes on until the next one.
+// A wrench that is known at instants alone: how it continues until the next one.
 #ifndef LD_ELEMENTS_HELD_WRENCH_H
 #define LD_ELEMENTS_HELD_WRENCH_H
 
 #include "math/vec3.h"
 
-// A force [N] and a moment [N m] as they were told, going on as the last two tell.
+// A force [N] and a moment [N m] as they were reported, continuing as the last two report.
 typedef struct held_wrench {
     v3 force, moment, force_rate, moment_rate;
 } held_wrench;
 
-// Takes what is told `since` [s] after the last; 0: nothing of before goes on, or its rate does.
+// Takes what is reported `since` [s] after the last; 0: nothing of before continues, or its rate
+// does.
 static inline void held_wrench_take(held_wrench *self, v3 force, v3 moment, double since)
 {
     if (since > 0) {

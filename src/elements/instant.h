@@ -60,7 +60,8 @@ typedef struct modal_state {
     LANE_ARRAY(z_dot, LD_NB);
     const double *t, *t_dot; // torsion
     const double *a, *a_dot; // axial
-    bool apart; // the planes have shapes of their own; then, of tube_load: G z, G z_dot, G^T y, ...
+    bool planes_differ; // the planes have shapes of their own; then, of tube_load: G z, G z_dot,
+                        // G^T y, ...
     LANE_ARRAY(z_on_y, LD_NB);
     LANE_ARRAY(z_dot_on_y, LD_NB);
     LANE_ARRAY(y_on_z, LD_NB);
@@ -70,19 +71,19 @@ typedef struct modal_state {
 // A plane's coordinates as the modes of the other one meet them: int b_y u_z dm and so on.
 LD_INLINE const double *z_on_y(const modal_state *q)
 {
-    return q->apart ? q->z_on_y : q->z;
+    return q->planes_differ ? q->z_on_y : q->z;
 }
 LD_INLINE const double *z_dot_on_y(const modal_state *q)
 {
-    return q->apart ? q->z_dot_on_y : q->z_dot;
+    return q->planes_differ ? q->z_dot_on_y : q->z_dot;
 }
 LD_INLINE const double *y_on_z(const modal_state *q)
 {
-    return q->apart ? q->y_on_z : q->y;
+    return q->planes_differ ? q->y_on_z : q->y;
 }
 LD_INLINE const double *y_dot_on_z(const modal_state *q)
 {
-    return q->apart ? q->y_dot_on_z : q->y_dot;
+    return q->planes_differ ? q->y_dot_on_z : q->y_dot;
 }
 
 // The deflection of one element as polynomials in xi.
@@ -111,7 +112,7 @@ LD_INLINE double poly2(const double *c, double x)
 }
 
 // Section at station x (formulation.md, sections 1 and 3); all vectors in R. Beyond the ends the
-// axis goes on straight (model.md, section 3): forces then act through the end section at `root`.
+// axis continues straight (model.md, section 3): forces then act through the end section at `root`.
 typedef struct axis_section {
     int index;     // element
     double x;      // station
@@ -158,7 +159,7 @@ typedef struct tube_force {
     LANE_ARRAY(z, LD_NB);
     double t[LD_NT];
     double a[LD_NA];
-    guide_forces *record; // of each force by its place; NULL: none is kept
+    guide_forces *record; // of each force by its position; NULL: none is kept
 } tube_force;
 
 // Everything of the tube that does not depend on forces.

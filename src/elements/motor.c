@@ -6,7 +6,7 @@
 #include "model/masses.h"
 
 // The shortest rotation of x onto (1, y, z): of columns in the turned axes to B.
-static m3 turned(double y, double z)
+static m3 rotation_onto(double y, double z)
 {
     double cosine = 1 / sqrt(1 + y * y + z * z);
     m3 across = m3_skew((v3){0, -z * cosine, y * cosine});
@@ -25,13 +25,13 @@ static rocket_mass mass_of(const ld_rocket *rocket, const ld_mass_data *data)
     mass.J.a[1][2] = mass.J.a[2][1] = rocket->products[2];
     const double *delta = rocket->dynamic_imbalance;
     if (delta[0] != 0 || delta[1] != 0) {
-        m3 turn = turned(delta[0], delta[1]);
+        m3 turn = rotation_onto(delta[0], delta[1]);
         mass.J = m3_mul(m3_mul(turn, mass.J), m3_transpose(turn));
     }
     return mass;
 }
 
-static rocket_mass between(const rocket_mass *a, const rocket_mass *b, double share)
+static rocket_mass mass_between(const rocket_mass *a, const rocket_mass *b, double share)
 {
     rocket_mass out = *a;
     out.m += share * (b->m - a->m);
@@ -53,7 +53,7 @@ static rocket_mass masses_in_table(const ld_rocket *rocket, double t)
     if (k == 0 || k == table->rows)
         return last;
     double t0 = table->data[(k - 1) * table->columns], t1 = table->data[k * table->columns];
-    return between(&first, &last, (t - t0) / (t1 - t0));
+    return mass_between(&first, &last, (t - t0) / (t1 - t0));
 }
 
 // What a stand measured below 0 counts as 0.
@@ -168,7 +168,7 @@ static void mass_by_table(const motor *self, int piece, double t, rocket_mass *m
     mass->m_dot = rate * (next->m - mass->m);
     mass->c_dot = v3_scale(rate, v3_sub(next->c, mass->c));
     mass->J_dot = m3_scale(rate, m3_sub(next->J, mass->J));
-    *mass = between(mass, next, rate * (t - self->t[piece]));
+    *mass = mass_between(mass, next, rate * (t - self->t[piece]));
 }
 
 void motor_mass(const motor *self, int piece, double t, rocket_mass *mass)

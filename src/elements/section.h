@@ -51,7 +51,7 @@ LD_INLINE void element_load(const tube_system *self, const modal_state *q, int i
     *v4d_lanes(motion->z) = z;
     *v4d_lanes(motion->y_dot) = y_dot;
     *v4d_lanes(motion->z_dot) = z_dot;
-    if (__builtin_expect(q->apart, 0))
+    if (__builtin_expect(q->planes_differ, 0))
         element_load_z(self, q, motion);
     motion->t[0] = t0, motion->t[1] = t1;
     motion->t_dot[0] = d0, motion->t_dot[1] = d1;
@@ -223,8 +223,8 @@ LD_INLINE void plane_shapes_load(const int lanes, const packed_shapes *from, dou
 }
 
 // Those of z, where they are its own, and how a plane's deflection meets the shapes of the other.
-LD_OUTLINE void shapes_load_apart(const int lanes, const packed_element *from, const modal_state *q,
-                                  double xi, section_shapes *shapes)
+LD_OUTLINE void shapes_load_two_planes(const int lanes, const packed_element *from,
+                                       const modal_state *q, double xi, section_shapes *shapes)
 {
     const plane_shapes *of_y = &shapes->plane[PLANE_Y], *of_z = &shapes->plane[PLANE_Z];
     plane_shapes_load(lanes, &from->plane[PLANE_Z], xi, &shapes->plane[PLANE_Z]);
@@ -246,8 +246,8 @@ LD_INLINE void shapes_load(const int lanes, const tube_system *self, const modal
     shapes->uy1 = poly1(motion->y, s->xi);
     shapes->uz = poly0(motion->z, s->xi);
     shapes->uz1 = poly1(motion->z, s->xi);
-    if (__builtin_expect(q->apart, 0))
-        shapes_load_apart(lanes, element, q, s->xi, shapes);
+    if (__builtin_expect(q->planes_differ, 0))
+        shapes_load_two_planes(lanes, element, q, s->xi, shapes);
     shapes->tt = shapes->cp_tau = 0;
     for (int j = 0; j < self->flexible.nt; j++) {
         shapes->tau[j] = element->tau[j][0] + s->xi * element->tau[j][1];

@@ -81,7 +81,7 @@ LD_INLINE void modal_load(const int lanes, const tube_system *self, const launch
     q->t_dot = rate + 2 * nb;
     q->a = q->t + self->flexible.nt;
     q->a_dot = q->t_dot + self->flexible.nt;
-    q->apart = self->z == PLANE_Z;
+    q->planes_differ = self->z == PLANE_Z;
 }
 
 // The sum of a matrix's rows [nb], in lanes, by q.
@@ -134,7 +134,7 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
     tube->g = m3_apply_transposed(tube->A_IR, v3_make(0, -self->gravity, 0));
     modal_state *q = &tube->modal;
     modal_load(lanes, self, at, state, q);
-    if (__builtin_expect(q->apart, 0))
+    if (__builtin_expect(q->planes_differ, 0))
         modal_overlap(lanes, &self->flexible, q);
     // the fixed rows (supports, ct, c) times the four vectors of modal coordinates and speeds
     for (int r = 0; r < self->row_lanes; r++) {
@@ -151,7 +151,7 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
         v4d_lanes(tube->row_y_dot)[r] = y_dot;
         v4d_lanes(tube->row_z_dot)[r] = z_dot;
     }
-    if (__builtin_expect(q->apart, 0))
+    if (__builtin_expect(q->planes_differ, 0))
         load_rows_of_z(self, tube);
     int ct = self->ct, c = self->c;
     tube->ct_y = tube->row_y[ct];
@@ -240,7 +240,7 @@ LD_INLINE void tube_forces(const int lanes, const tube_system *self, tube_state 
 
 // What shapes of their own change of the factors, G q_z = z_y and G^T q_y = y_z in place of q_z and
 // q_y: wx couples with vy, vz and with wy, wz.
-LD_OUTLINE void tube_factor_apart(const int lanes, const tube_system *self, tube_state *tube)
+LD_OUTLINE void tube_factor_two_planes(const int lanes, const tube_system *self, tube_state *tube)
 {
     const flexible_tube *data = &self->flexible;
     const modal_state *q = &tube->modal;
@@ -294,8 +294,8 @@ LD_INLINE void tube_factor(const int lanes, const tube_system *self, tube_state 
     tube->per_dy = 1 / syy;
     tube->l_zwy = szy * tube->per_dy;
     tube->per_dz = 1 / (szz - tube->l_zwy * szy);
-    if (__builtin_expect(tube->modal.apart, 0))
-        tube_factor_apart(lanes, self, tube);
+    if (__builtin_expect(tube->modal.planes_differ, 0))
+        tube_factor_two_planes(lanes, self, tube);
 }
 
 // L^-1 of (force, moment); kept undivided by the diagonal.
@@ -307,7 +307,7 @@ LD_INLINE void tube_forward(const tube_state *tube, v3 f, v3 m, double out[6])
     out[3] = m.x;
     out[4] = m.y - tube->l_yx * f.x - tube->l_yz * f.z;
     out[5] = m.z - tube->l_zx * f.x - tube->l_zy * f.y;
-    if (__builtin_expect(tube->modal.apart, 0)) {
+    if (__builtin_expect(tube->modal.planes_differ, 0)) {
         out[3] -= tube->l_xy * f.y + tube->l_xz * f.z;
         out[4] -= tube->l_ywx * out[3];
         out[5] -= tube->l_zwx * out[3];
@@ -318,7 +318,7 @@ LD_INLINE void tube_forward(const tube_state *tube, v3 f, v3 m, double out[6])
 // x^T D^-1 y of two forward-substituted vectors.
 LD_INLINE double tube_product(const tube_state *tube, const double x[6], const double y[6])
 {
-    double across = __builtin_expect(tube->modal.apart, 0)
+    double across = __builtin_expect(tube->modal.planes_differ, 0)
                         ? x[1] * y[1] * tube->per_my + x[2] * y[2] * tube->per_mz
                         : (x[1] * y[1] + x[2] * y[2]) * tube->per_my;
     return x[0] * y[0] * tube->per_m + across + x[3] * y[3] * tube->per_jx +
@@ -333,7 +333,7 @@ LD_INLINE void tube_backward(const tube_state *tube, const double x[6], v3 *a, v
     *a = v3_make(x[0] * tube->per_m - tube->l_yx * wy - tube->l_zx * wz,
                  x[1] * tube->per_my - tube->l_zy * wz, x[2] * tube->per_my - tube->l_yz * wy);
     *w_dot = v3_make(x[3] * tube->per_jx, wy, wz);
-    if (__builtin_expect(tube->modal.apart, 0)) {
+    if (__builtin_expect(tube->modal.planes_differ, 0)) {
         w_dot->x -= tube->l_ywx * wy + tube->l_zwx * wz;
         a->y -= tube->l_xy * w_dot->x;
         a->z = x[2] * tube->per_mz - tube->l_yz * wy - tube->l_xz * w_dot->x;

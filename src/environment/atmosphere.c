@@ -42,7 +42,7 @@ static void build_layers(atmosphere *self)
 
 enum { LOG_P = 1, T_V, COLUMNS }; // behind the altitude
 
-// Distance [m] of the rows by which us1976 goes on beyond the measured ones; the nearest lies no
+// Distance [m] of the rows by which us1976 continues beyond the measured ones; the nearest lies no
 // nearer to these than half of it.
 #define FARTHER_ROWS 250.0
 #define LOWEST (-5000.0)
@@ -52,7 +52,7 @@ static double farther_height(int i)
     return LOWEST + FARTHER_ROWS * i;
 }
 
-// The row of us1976 at an altitude, scaled so that it goes on from the row `end`.
+// The row of us1976 at an altitude, scaled so that it continues from the row `end`.
 static void farther_row(const atmosphere *self, double z, const double *end, double *row)
 {
     double T, p, T_end, p_end;

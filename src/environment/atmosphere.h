@@ -25,10 +25,10 @@ void atmosphere_free(atmosphere *self);
 
 // Air at a geometric altitude [m]. us1976: perfect gas in hydrostatic layers of constant lapse rate
 // over geopotential height (U.S. Standard Atmosphere 1976, equations 18, 23, 33a, 33b, 42, 50);
-// below the lowest layer that one goes on, above 86 km the density is 0. Measured: temperature by
+// below the lowest layer that one continues, above 86 km the density is 0. Measured: temperature by
 // pchip over the altitude, the pressure's logarithm by the cubic that has the rows' pressures and
-// is hydrostatic at the rows, dp/dz = -p g/(R T_v); where the rows end us1976 goes on, T and log p
-// scaled so that they meet and stay hydrostatic: s T(z), p(z)^(1/s).
+// is hydrostatic at the rows, dp/dz = -p g/(R T_v); where the rows end us1976 continues, T and log
+// p scaled so that they meet and stay hydrostatic: s T(z), p(z)^(1/s).
 air atmosphere_at(const atmosphere *self, double altitude);
 
 // Temperature [K] (molecular-scale, as the standard's to 80 km) and pressure [Pa] of us1976,

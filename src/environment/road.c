@@ -134,8 +134,8 @@ static double *turns_of(const road *self, double step)
     return turns;
 }
 
-// Sines and cosines of k x, of as many harmonics from `first` on as are told: all of a block, which
-// costs a tenth each, but far away, where the lanes give up, each by itself.
+// Sines and cosines of k x, of as many harmonics from `first` on as are reported: all of a block,
+// which costs a tenth each, but far away, where the lanes give up, each on its own.
 static int turns_at(const road *self, double x, int first, double *sine, double *cosine)
 {
     static const double NEAR = 5e5 / 4;

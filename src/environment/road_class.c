@@ -21,7 +21,7 @@ int road_class_of(double density)
 }
 
 // The longest power of 2 of which four, half overlapping, lie in the record, no longer than the
-// lowest frequency wants.
+// lowest frequency requires.
 static size_t segment_of(size_t count, double step)
 {
     size_t size = 8;

@@ -8,7 +8,7 @@
 
 typedef struct road_estimate {
     double from, to;              // [1/m] of the fit
-    double density;               // [m3] G_d at n0 = 0.1/m; NaN: the heights do not tell
+    double density;               // [m3] G_d at n0 = 0.1/m; NaN: the heights do not report
     double factor;                // 95 % interval: from density/factor to density*factor
     int lowest, nearest, highest; // of density and that interval's ends, 0: A
 } road_estimate;

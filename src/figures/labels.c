@@ -52,7 +52,7 @@ static void place_names(label_on_line *name, const size_t *order, size_t count, 
     }
 }
 
-static double moved(const label_on_line *one)
+static double offset_of(const label_on_line *one)
 {
     return fabs(one->left + one->width / 2 - one->at);
 }
@@ -65,8 +65,8 @@ static size_t drop_far_name(label_on_line *name, size_t *order, size_t count, do
     double most = 0;
     for (size_t k = 0; k < count; k++) {
         const label_on_line *one = &name[order[k]];
-        most = fmax(most, moved(one));
-        if (moved(one) > far / 2 && (worst == count || one->rank >= name[order[worst]].rank))
+        most = fmax(most, offset_of(one));
+        if (offset_of(one) > far / 2 && (worst == count || one->rank >= name[order[worst]].rank))
             worst = k;
     }
     if (most <= far || worst == count)
@@ -92,7 +92,7 @@ void labels_place_on_line(label_on_line *name, size_t count, double low, double 
 
 // ---- beside points ----
 
-static bool meet(const label_box *a, const label_box *b)
+static bool do_overlap(const label_box *a, const label_box *b)
 {
     return a->left < b->right && b->left < a->right && a->top < b->bottom && b->top < a->bottom;
 }
@@ -103,7 +103,7 @@ static bool is_free(const label_box *box, const label_box *bounds, const label_b
     bool free = box->left >= bounds->left && box->right <= bounds->right &&
                 box->top >= bounds->top && box->bottom <= bounds->bottom;
     for (size_t i = 0; i < count; i++)
-        free = free && !meet(box, &taken[i]);
+        free = free && !do_overlap(box, &taken[i]);
     return free;
 }
 

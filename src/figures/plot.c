@@ -192,7 +192,7 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
 
 // ---- the page ----
 
-// `note` (NULL: not wanted) takes the first doubt.
+// `note` (NULL: not requested) takes the first doubt.
 static ld_status read_folder(const char *folder, char *note, history_data *history, ld_error *error)
 {
     char path[4096], doubt[256];

@@ -51,7 +51,7 @@ typedef struct plot_figure {
     ld_figure about;
     plot_panel panel[PLOT_PANELS]; // up to the first without a title
     plot_time time;
-    bool told; // the report shows it at once, the others folded
+    bool open; // the report shows it at once, the others folded
 } plot_figure;
 
 // The figures in their order, NULL after the last; that with a name, or NULL.
@@ -93,10 +93,10 @@ typedef enum plot_format { PLOT_SVG, PLOT_PDF, PLOT_PNG } plot_format;
 typedef struct plot_style {
     const char *name;
     const char *paper, *ink, *soft, *grid; // background; text and axes; instants; lines behind
-    const char *colour[PLOT_RUNS];         // of curves, to be told apart by the colour-blind
+    const char *colour[PLOT_RUNS];         // of curves, to be distinguished by the colour-blind
     double millimetres;                    // width where none is asked for; 0: that of a screen
     bool caption;                          // stands above a caption: has no title
-    bool dashed;                           // curves are told apart without colours, too
+    bool dashed;                           // curves are distinguished without colours, too
 } plot_style;
 
 // The style of a name, the first for NULL; NULL, with the error, where there is none.
@@ -112,7 +112,7 @@ typedef struct plot_page {
     size_t runs;
     const plot_figure *const *figure; // [figures]
     size_t figures;
-    double from, to; // [s] from ignition, NaN: what the figure shows by itself
+    double from, to; // [s] from ignition, NaN: what the figure shows on its own
     const plot_style *style;
     double width; // [pixels]
 } plot_page;

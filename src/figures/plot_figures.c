@@ -46,40 +46,40 @@
      .x = {x_name, x_in}, .wide = true}
 
 // A figure of what comes after ignition; one over all the time that a vehicle moves; one of the
-// flights of the rockets. TOLD: one of the story that the report tells.
+// flights of the rockets. OPEN: one of what the report shows first.
 #define LAUNCH(name, text, ...) {.about = {name, text}, .panel = {__VA_ARGS__}}
 #define VEHICLE(name, text, ...) \
     {.about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_VEHICLE}
 #define FLIGHT(name, text, ...) \
     {.about = {name, text}, .panel = {__VA_ARGS__}, .time = PLOT_FLIGHT}
-#define TOLD_LAUNCH(name, text, ...) \
-    {.about = {name, text}, .panel = {__VA_ARGS__}, .told = true}
-#define TOLD_VEHICLE(name, text, ...) \
-    {.about = {name, text}, .panel = {__VA_ARGS__}, .told = true, .time = PLOT_VEHICLE}
-#define TOLD_FLIGHT(name, text, ...) \
-    {.about = {name, text}, .panel = {__VA_ARGS__}, .told = true, .time = PLOT_FLIGHT}
+#define OPEN_LAUNCH(name, text, ...) \
+    {.about = {name, text}, .panel = {__VA_ARGS__}, .open = true}
+#define OPEN_VEHICLE(name, text, ...) \
+    {.about = {name, text}, .panel = {__VA_ARGS__}, .open = true, .time = PLOT_VEHICLE}
+#define OPEN_FLIGHT(name, text, ...) \
+    {.about = {name, text}, .panel = {__VA_ARGS__}, .open = true, .time = PLOT_FLIGHT}
 
 static const plot_figure figures[] = {
     // the story of a launch
-    TOLD_LAUNCH("travel", "Travel of the rocket along the tube",
+    OPEN_LAUNCH("travel", "Travel of the rocket along the tube",
            HALF("Travel", "travel", M, {"rocket.s", "s"}),
            HALF("Speed", "speed", M_S, {"rocket.s_dot", "relative to the tube"}),
            HALF("Roll", "roll", DEG, {"rocket.gamma", "relative to the tube"}),
            HALF("Spin", "spin", RAD_S, {"rocket.spin", "in inertial space"})),
-    TOLD_LAUNCH("contact", "Contact between adaptors and tube",
+    OPEN_LAUNCH("contact", "Contact between adaptors and tube",
            WIDE("Force, normal and friction together", "force", KN, {"contact.*.force", ""}),
            WIDE("Penetration (negative: gap)", "penetration", MM, {"contact.*.penetration", ""})),
-    TOLD_LAUNCH("relative", "Rocket relative to the tube",
+    OPEN_LAUNCH("relative", "Rocket relative to the tube",
            HALF("Rear adaptor's centre", "offset", MM, {"rocket.y", "y"}, {"rocket.z", "z"}),
            HALF("Direction", "angle", MRAD, {"rocket.psi", "pitch"}, {"rocket.theta", "yaw"}),
            AGAINST("Path of the rear adaptor's centre", "y", MM, "rocket.y",
                    "z", MM, "rocket.z"),
            AGAINST("Pitch against yaw", "pitch", MRAD, "rocket.psi",
                    "yaw", MRAD, "rocket.theta")),
-    TOLD_LAUNCH("tip", "Tip of the tube against the undeformed tube",
+    OPEN_LAUNCH("tip", "Tip of the tube against the undeformed tube",
            HALF("Position", "offset", MM, {"tip.y", "y"}, {"tip.z", "z"}),
            HALF("Direction", "angle", MRAD, {"tip.pitch", "pitch"}, {"tip.yaw", "yaw"})),
-    TOLD_LAUNCH("tip-off", "Rocket against the launcher, in the axes of the undeformed tube",
+    OPEN_LAUNCH("tip-off", "Rocket against the launcher, in the axes of the undeformed tube",
            HALF("Direction", "angle", MRAD, {"tip_off.pitch", "pitch"}, {"tip_off.yaw", "yaw"}),
            HALF("In the launcher's axes at ignition", "angle", MRAD,
                 {"since_ignition.pitch", "pitch"}, {"since_ignition.yaw", "yaw"}),
@@ -89,13 +89,13 @@ static const plot_figure figures[] = {
                 {"tip_off.pitch_rate_relative", "pitch"}, {"tip_off.yaw_rate_relative", "yaw"}),
            WIDE("Velocity of the mass centre against the launcher", "velocity", M_S,
                 {"tip_off.vy_relative", "y"}, {"tip_off.vz_relative", "z"})),
-    TOLD_VEHICLE("chassis", "Chassis",
+    OPEN_VEHICLE("chassis", "Chassis",
            WIDE("Height of the mass centre", "height", MM, {"chassis.y", ""}),
            HALF("Pitch", "pitch", MRAD, {"chassis.pitch", ""}),
            HALF("Roll", "roll", MRAD, {"chassis.roll", ""}),
            HALF("Speed", "speed", M_S, {"drive.speed", ""}),
            HALF("Drive force", "force", KN, {"drive.force", ""})),
-    // what a launch on the march is looked at by, in the order of the paper's figures 5 to 9
+    // what a launch on the march is judged by, in the order of the paper's figures 5 to 9
     LAUNCH("tip-inertial", "Tip of the tube in inertial space",
            SINCE("Height since ignition", "height", MM, {"tip.inertial_y", ""}),
            SINCE("To the right since ignition", "to the right", MM, {"tip.inertial_z", ""}),
@@ -182,12 +182,12 @@ static const plot_figure figures[] = {
            HALF("Torque of the azimuth's stabiliser", "torque", KN_M, {"azimuth.torque", ""}),
            HALF("Torque of the elevation's stabiliser", "torque", KN_M, {"elevation.torque", ""})),
     // flights
-    TOLD_FLIGHT("trajectory", "Trajectories of the rockets",
+    OPEN_FLIGHT("trajectory", "Trajectories of the rockets",
            BROAD("Altitude above sea level, along x", "altitude", M, "altitude",
                  "x", M, "center.x"),
            BROAD("Ground track", "to the right, z", M, "center.z",
                  "x", M, "center.x")),
-    TOLD_FLIGHT("flight", "Free flight",
+    OPEN_FLIGHT("flight", "Free flight",
            HALF("Altitude above sea level", "altitude", M, {"altitude", ""}),
            HALF("Mach number", "Mach number", PLAIN, {"mach", ""}),
            HALF("Pitch", "pitch", DEG, {"rocket.pitch", ""}),

@@ -6,7 +6,7 @@
 enum { LAUNCH = 1 << PLOT_LAUNCH, VEHICLE = 1 << PLOT_VEHICLE, FLIGHT = 1 << PLOT_FLIGHT };
 
 // Marks an instant, where there is one.
-static void mark(plot_marks *marks, const char *name, double t, int rank, unsigned figures)
+static void mark_instant(plot_marks *marks, const char *name, double t, int rank, unsigned figures)
 {
     if (!isfinite(t) || marks->count == PLOT_MARKS)
         return;
@@ -34,8 +34,8 @@ static void mark_launch(plot_marks *marks, const history_data *history, int numb
         char name[LD_MAX_NAME];
         snprintf(name, sizeof name, history->rockets > 1 ? "%s %d" : "%s", instant[i].name,
                  number + 1);
-        mark(marks, name, rocket->t_ignition - start + instant[i].t, instant[i].rank,
-             instant[i].figures);
+        mark_instant(marks, name, rocket->t_ignition - start + instant[i].t, instant[i].rank,
+                     instant[i].figures);
     }
     for (size_t i = first; i < marks->count; i++)
         marks->mark[i].rocket = number;
@@ -53,12 +53,12 @@ static double burnout_of(const history_data *history)
 
 static void mark_flight(plot_marks *marks, const history_data *flight, double start)
 {
-    mark(marks, "exit", flight->t_rear, 0, FLIGHT);
-    mark(marks, "burnout", burnout_of(flight) - start, 2, FLIGHT);
-    mark(marks, "apogee", flight->t_apogee, 1, FLIGHT);
+    mark_instant(marks, "exit", flight->t_rear, 0, FLIGHT);
+    mark_instant(marks, "burnout", burnout_of(flight) - start, 2, FLIGHT);
+    mark_instant(marks, "apogee", flight->t_apogee, 1, FLIGHT);
     for (int i = 0; i < flight->openings; i++)
-        mark(marks, flight->opening[i].name, flight->opening[i].t, 2, FLIGHT);
-    mark(marks, "landing", flight->t_impact, 0, FLIGHT);
+        mark_instant(marks, flight->opening[i].name, flight->opening[i].t, 2, FLIGHT);
+    mark_instant(marks, "landing", flight->t_impact, 0, FLIGHT);
 }
 
 // As they come; what comes at one time stays as it was.

@@ -77,8 +77,8 @@ void plot_write_json(FILE *json)
     for (size_t f = 0; (figure = plot_figure_at(f)) != NULL; f++) {
         fprintf(json, "%s\n{\"name\":\"%s\",\"title\":", f ? "," : "[", figure->about.name);
         json_write_text(json, figure->about.description);
-        fprintf(json, ",\"time\":\"%s\",\"told\":%d,\"panels\":[", time[figure->time],
-                figure->told);
+        fprintf(json, ",\"time\":\"%s\",\"open\":%d,\"panels\":[", time[figure->time],
+                figure->open);
         for (int i = 0; i < PLOT_PANELS && figure->panel[i].title; i++) {
             fputs(i ? "," : "", json);
             write_panel(json, &figure->panel[i]);

@@ -72,7 +72,7 @@ typedef struct plot_drawing {
 
 static const char *const dash[DASHES] = {"solid", "(8,4)", "(2,3)", "(8,3,2,3)", "(14,4)"};
 
-static bool several(const plot_drawing *drawing)
+static bool has_several_runs(const plot_drawing *drawing)
 {
     return drawing->page->runs > 1;
 }
@@ -261,7 +261,7 @@ static void find_curves(plot_drawing *drawing)
 
 // From and to [s] from ignition: what was asked for, else all of a vehicle's motion, and of a
 // launch what comes after ignition.
-static bool shown(const plot_drawing *drawing, double t)
+static bool is_in_range(const plot_drawing *drawing, double t)
 {
     const double before = 5e-3;
     double from = drawing->page->from, to = drawing->page->to;
@@ -290,7 +290,8 @@ static void set_points(plot_drawing *drawing, const found_curve *curve)
     for (size_t i = 0; i < source->history->rows; i++) {
         double t = source->t[i] - source->t_ignition;
         drawing->x[i] = curve->x ? curve->x[i] * panel->x.unit.factor : t * in_time;
-        drawing->y[i] = shown(drawing, t) ? (curve->y[i] - reference) * panel->y.unit.factor : NAN;
+        drawing->y[i] =
+            is_in_range(drawing, t) ? (curve->y[i] - reference) * panel->y.unit.factor : NAN;
     }
 }
 
@@ -422,7 +423,7 @@ static const plot_source *named_source(const plot_drawing *drawing, size_t run)
 // Whether the figure at hand shows an instant.
 static bool marks(const plot_drawing *drawing, const plot_mark *mark)
 {
-    return (mark->figures >> drawing->figure->time & 1) != 0 && shown(drawing, mark->t);
+    return (mark->figures >> drawing->figure->time & 1) != 0 && is_in_range(drawing, mark->t);
 }
 
 // Place of an instant on the time axis, NaN where it is not on it.
@@ -479,7 +480,7 @@ static void write_instant_names(const plot_drawing *drawing, const plot_marks *o
 }
 
 // Whether the first run has a line where that of an instant of another run would stand.
-static bool stands(const plot_drawing *drawing, const plot_marks *first, const plot_mark *mark)
+static bool coincides(const plot_drawing *drawing, const plot_marks *first, const plot_mark *mark)
 {
     double seen = (drawing->x_range[1] - drawing->x_range[0]) / 300;
     for (size_t i = 0; first && i < first->count; i++)
@@ -500,7 +501,7 @@ static void write_instants_in_time(const plot_drawing *drawing)
             const plot_mark *mark = &source->marks.mark[i];
             double place = place_of(drawing, mark);
             if (isfinite(place) &&
-                (run == 0 || !stands(drawing, first ? &first->marks : NULL, mark)))
+                (run == 0 || !coincides(drawing, first ? &first->marks : NULL, mark)))
                 fprintf(drawing->script,
                         "set arrow from %.8g, graph 0 to %.8g, graph 1 nohead lw 1 dt (4,3) lc rgb "
                         "'#%s' back\n",
@@ -546,7 +547,7 @@ static void write_dots(plot_drawing *drawing, const found_curve *curve, path_nam
 {
     const plot_source *source = curve->source;
     double across = drawing->width - LEFT - RIGHT, up = PANEL - BOTTOM - top_room(drawing);
-    bool named = !several(drawing) && source == named_source(drawing, 0);
+    bool named = !has_several_runs(drawing) && source == named_source(drawing, 0);
     set_points(drawing, curve);
     add_places(drawing, source->history->rows, names);
     for (size_t i = 0; i < source->marks.count; i++) {
@@ -556,10 +557,11 @@ static void write_dots(plot_drawing *drawing, const found_curve *curve, path_nam
         size_t row = nearest_row(drawing, source, mark->t + source->t_ignition);
         if (row == source->history->rows)
             continue;
-        fprintf(
-            drawing->script, "set label '' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' front\n",
-            drawing->x[row], drawing->y[row],
-            several(drawing) ? run_colour(drawing, (size_t)curve->run) : style_of(drawing)->ink);
+        fprintf(drawing->script,
+                "set label '' at %.8g, %.8g point pt 7 ps 0.6 lc rgb '#%s' front\n",
+                drawing->x[row], drawing->y[row],
+                has_several_runs(drawing) ? run_colour(drawing, (size_t)curve->run)
+                                          : style_of(drawing)->ink);
         if (!named || mark->rocket > 0 || names->count == LABELS_MOST)
             continue;
         names->mark[names->count] = mark;
@@ -647,7 +649,7 @@ static double place_run_names(const plot_drawing *drawing, const plot_page *page
 static void write_headings(plot_drawing *drawing)
 {
     const plot_page *page = drawing->page;
-    if (drawing->index == 0 && several(drawing))
+    if (drawing->index == 0 && has_several_runs(drawing))
         place_run_names(drawing, page);
     else if (drawing->index == 0 && page->run[0].title && title_height(page) > 0)
         write_text(drawing, page->run[0].title, 16, TITLE * 0.55, "left font ',17'");
@@ -708,15 +710,15 @@ static void write_plot(const plot_drawing *drawing)
     FILE *script = drawing->script;
     for (int i = 0; i < drawing->count; i++) {
         const found_curve *curve = &drawing->curve[i];
-        int lines = several(drawing) ? curve->run : curve->column;
+        int lines = has_several_runs(drawing) ? curve->run : curve->column;
         fprintf(script, "%s $p%dc%d using 1:2 with lines ls %d ", i ? ", \\\n    " : "plot",
                 drawing->index, i, lines % COLOURS + 1);
-        if (several(drawing) || style_of(drawing)->dashed)
+        if (has_several_runs(drawing) || style_of(drawing)->dashed)
             fprintf(script, "dt %s ", dash[curve->column % DASHES]);
-        write_title(script, several(drawing) ? "" : curve->label);
+        write_title(script, has_several_runs(drawing) ? "" : curve->label);
     }
     int shown = 0;
-    for (int i = 0; i < drawing->count && several(drawing) && drawing->columns > 1; i++)
+    for (int i = 0; i < drawing->count && has_several_runs(drawing) && drawing->columns > 1; i++)
         if (drawing->curve[i].column == shown) {
             fprintf(script, ", \\\n     keyentry with lines lw 1.5 lc rgb '#%s' dt %s ",
                     style_of(drawing)->ink, dash[shown++ % DASHES]);

@@ -30,7 +30,7 @@ struct ld_response_view {
     const ld_column *input; // of a frequency response, or what is random
     ld_table density;       // its
     const char *density_file;
-    bool rub;
+    bool friction;
     int draws;         // of the exit
     ld_column *column; // [columns]
     size_t columns;
@@ -59,7 +59,7 @@ static bool is_over_speeds(const ld_response_view *view)
     return view->kind == SPEEDS || view->kind == EXIT;
 }
 
-// ---- what is looked at ----
+// ---- what is shown ----
 
 static const char *const on_vehicle[] = {
     "chassis.vy",
@@ -435,7 +435,7 @@ static ld_status check_wish(const ld_model *model, const ld_response_wish *wish,
                        "the scatter of the exit is caused by the road: it excludes input and loop");
     if (wish->draws && !wish->exit)
         return ld_fail(error, LD_ERR_INPUT, "draws require the scatter of the exit");
-    if (wish->loop && wish->rub)
+    if (wish->loop && wish->friction)
         return ld_fail(error, LD_ERR_INPUT, "a loop is shown without friction of the hinges");
     if (wish->density && !wish->input)
         return ld_fail(error, LD_ERR_INPUT,
@@ -470,7 +470,7 @@ ld_status ld_response_view_create(const ld_model *model, const ld_response_wish 
                                  : SPECTRUM;
     self->density_file = wish->density;
     self->draws = wish->draws;
-    self->rub = wish->rub || wish->exit;
+    self->friction = wish->friction || wish->exit;
     self->slowest = over_speeds ? wish->slowest : own;
     self->fastest = over_speeds ? wish->fastest : own;
     self->hinge = wish->loop;
@@ -479,8 +479,8 @@ ld_status ld_response_view_create(const ld_model *model, const ld_response_wish 
                  : ld_response_create(model, self->slowest, self->fastest, &self->response, error);
     if (!status && wish->exit)
         ld_response_watch(self->response, wish->watch);
-    if (!status && self->rub)
-        status = ld_response_rub(self->response, true, error);
+    if (!status && self->friction)
+        status = ld_response_friction(self->response, true, error);
     if (!status && wish->density)
         status = density_file_read(wish->density, &self->density, error);
     if (!status)
@@ -705,8 +705,8 @@ void ld_response_view_print(const ld_response_view *view, FILE *stream)
     const ld_road *road = &model_base(view->model)->vehicle.road;
     describe(view, text, sizeof text);
     fprintf(stream, "%s; linear about the equilibrium, %s\n", text,
-            view->rub ? "friction of the hinges linearised for the motion on the road"
-                      : "no Coulomb friction in the hinges");
+            view->friction ? "friction of the hinges linearised for the motion on the road"
+                           : "no Coulomb friction in the hinges");
     bool on_road = view->kind == SPECTRUM || is_over_speeds(view);
     if (on_road && (road->bump_count > 0 || road->profile.rows > 0))
         fputs("Bumps and profile of the road are left out: they occur once\n", stream);
@@ -911,7 +911,7 @@ static ld_status add_values(const ld_response_view *view, chart_page *page, ld_e
     return LD_OK;
 }
 
-// Phases with gaps where they go on from the other end of the circle.
+// Phases with gaps where they continue from the other end of the circle.
 static ld_status part_phases(const ld_response_view *view, chart_page *page, ld_error *error)
 {
     size_t count = view->columns * view->count;

@@ -12,7 +12,7 @@
 
 typedef struct alone_run {
     const ld_simulation *self;
-    const ld_sink *sink; // NULL: no rows wanted
+    const ld_sink *sink; // NULL: no rows requested
     double cpu_output;   // [s] spent on rows and their sink
 } alone_run;
 

@@ -58,14 +58,16 @@ int flight_lanes_here(void)
 // ---- a lane and its columns of the blocks
 
 // `count` numbers into, or out of, column i.
-static void put(double *block, const lane_group *self, int i, const void *numbers, size_t count)
+static void put_column(double *block, const lane_group *self, int i, const void *numbers,
+                       size_t count)
 {
     const double *number = numbers;
     for (size_t k = 0; k < count; k++)
         block[k * (size_t)self->count + (size_t)i] = number[k];
 }
 
-static void get(const double *block, const lane_group *self, int i, void *numbers, size_t count)
+static void get_column(const double *block, const lane_group *self, int i, void *numbers,
+                       size_t count)
 {
     double *number = numbers;
     for (size_t k = 0; k < count; k++)
@@ -78,19 +80,19 @@ static void get(const double *block, const lane_group *self, int i, void *number
         ->step[offsetof(dormand_prince_numbers, member) / sizeof(double) * (size_t)(self)->count + \
                (size_t)(i)]
 
-// The flight of lane `from` into column i, from where it goes on.
+// The flight of lane `from` into column i, from where it continues.
 static void put_flight(lane_group *self, int i, int from)
 {
     lane *one = &self->lane[from];
     const flight_run *run = &one->run;
     if (i != from || one->changes != run->phase.changes)
-        put(self->number, self, i, &run->phase.number, FLIGHT_NUMBERS);
-    put(self->step, self, i, &run->steps.step, DORMAND_PRINCE_NUMBERS);
-    put(self->extremes, self, i, &run->extremes, FLIGHT_EXTREMES);
+        put_column(self->number, self, i, &run->phase.number, FLIGHT_NUMBERS);
+    put_column(self->step, self, i, &run->steps.step, DORMAND_PRINCE_NUMBERS);
+    put_column(self->extremes, self, i, &run->extremes, FLIGHT_EXTREMES);
     one->changes = run->phase.changes;
 }
 
-static void end(lane_group *self, int i, ld_status status)
+static void end_lane(lane_group *self, int i, ld_status status)
 {
     lane *one = &self->lane[i];
     one->flies = false;
@@ -98,15 +100,15 @@ static void end(lane_group *self, int i, ld_status status)
     self->source->done(self->source->self, i, &one->flight, status);
 }
 
-static void look(lane_group *self, int i)
+static void watch_lane(lane_group *self, int i)
 {
     flight_run *run = &self->lane[i].run;
-    get(self->step, self, i, &run->steps.step, DORMAND_PRINCE_NUMBERS);
-    get(self->extremes, self, i, &run->extremes, FLIGHT_EXTREMES);
+    get_column(self->step, self, i, &run->steps.step, DORMAND_PRINCE_NUMBERS);
+    get_column(self->extremes, self, i, &run->extremes, FLIGHT_EXTREMES);
     run->steps.open = false;
-    ld_status status = flight_run_look(run);
-    if (status || !flight_run_goes_on(run))
-        end(self, i, status);
+    ld_status status = flight_run_examine(run);
+    if (status || !flight_run_continues(run))
+        end_lane(self, i, status);
     else
         put_flight(self, i, i);
 }
@@ -115,9 +117,9 @@ static void fly_alone(lane_group *self, int i)
 {
     flight_run *run = &self->lane[i].run;
     ld_status status = LD_OK;
-    while (!status && flight_run_goes_on(run))
+    while (!status && flight_run_continues(run))
         status = flight_run_step(run);
-    end(self, i, status);
+    end_lane(self, i, status);
 }
 
 static int any_in_the_air(const lane_group *self)
@@ -129,7 +131,7 @@ static int any_in_the_air(const lane_group *self)
 }
 
 // The next flight into a free lane; false: there is none.
-static bool take(lane_group *self, int i)
+static bool load_next(lane_group *self, int i)
 {
     lane *one = &self->lane[i];
     lane_flight *flight = &one->flight;
@@ -138,8 +140,8 @@ static bool take(lane_group *self, int i)
     ld_status status = flight_run_begin(&one->run, &flight->job, flight->state, flight->rocket,
                                         flight->summary, flight->error);
     int other = any_in_the_air(self);
-    if (status || !flight_run_goes_on(&one->run)) {
-        end(self, i, status);
+    if (status || !flight_run_continues(&one->run)) {
+        end_lane(self, i, status);
     } else if (self->count == 1 ||
                (other >= 0 && !flight_is_like(flight->job.system, self->side.system[other]))) {
         fly_alone(self, i);
@@ -179,11 +181,11 @@ static void try_steps(lane_group *self, int flying)
     unsigned seen = self->width->watch(&self->side, &self->ends);
     for (int i = 0; i < self->count; i++) {
         double outcome = OF_STEP(self, i, outcome);
-        bool due = OF_STEP(self, i, steps) >= self->lane[i].run.next_look ||
+        bool due = OF_STEP(self, i, steps) >= self->lane[i].run.next_check ||
                    OF_STEP(self, i, t) == OF_STEP(self, i, t_stop);
         bool done = outcome == DORMAND_PRINCE_DONE && (due || (seen >> i & 1));
         if (self->lane[i].flies && (done || outcome == DORMAND_PRINCE_LOST))
-            look(self, i);
+            watch_lane(self, i);
     }
 }
 
@@ -200,7 +202,7 @@ static void fly(lane_group *self)
 {
     for (;;) {
         for (int i = 0; i < self->count; i++)
-            while (!self->lane[i].flies && take(self, i))
+            while (!self->lane[i].flies && load_next(self, i))
                 ;
         int flying = any_in_the_air(self);
         if (flying < 0)

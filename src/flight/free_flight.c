@@ -138,7 +138,7 @@ static void watch_pressure(flight_run *run, const flight_flow *flow)
     const dormand_prince_numbers *step = &run->steps.step;
     const flight_step ends = ends_of(run);
     double pressure = flow->pressure, t = step->t;
-    // anew: what the extremes have of it may be of the end already
+    // again: what the extremes have of it may be of the end already
     const double density[] = {flight_flow_at(run->job->system, step->t0, step->y0).density,
                               flow->density};
     if (flight_pressure_turns(run->job->system, &ends, density, pressure)) {
@@ -183,7 +183,7 @@ static void take_height(flight_run *run, double t, const double *y)
     }
 }
 
-static void watch(flight_run *run, double t, const double *y)
+static void watch_extremes(flight_run *run, double t, const double *y)
 {
     const flight_system *system = run->job->system;
     flight_extremes *most = &run->extremes;
@@ -447,7 +447,7 @@ static double find_apex(flight_run *run)
 }
 
 // Ends the last step on the ground if it went through; apex: of the same step.
-static bool land(flight_run *run, double apex)
+static bool end_on_ground(flight_run *run, double apex)
 {
     const flight_system *system = run->job->system;
     dormand_prince *steps = &run->steps;
@@ -476,7 +476,7 @@ static double height_of_trigger(const flight_run *run, int i)
     return run->job->system->ground + run->job->system->rocket->parachute[i].height;
 }
 
-// The highest of the heights on which a trigger waits is looked at.
+// The highest of the heights on which a trigger waits is checked.
 static void watch_triggers(flight_run *run)
 {
     flight_phase *phase = &run->phase;
@@ -678,11 +678,11 @@ static ld_status after_step(flight_run *run, double apex, bool stopped)
         if (!status)
             status = write_row(run, apex, y);
     }
-    run->landed = land(run, apex);
+    run->landed = end_on_ground(run, apex);
     measure_step(run, apex);
     if (!status)
         status = write_rows(run, steps->step.t);
-    watch(run, steps->step.t, steps->step.y);
+    watch_extremes(run, steps->step.t, steps->step.y);
     if (!status)
         status = check_table(run);
     if (!status && (run->landed || stopped))
@@ -694,7 +694,7 @@ static ld_status after_step(flight_run *run, double apex, bool stopped)
     return status ? status : report_progress(run, steps->step.t, steps->step.y);
 }
 
-// A flight whose steps are so short hardly goes on.
+// A flight whose steps are so short hardly continues.
 static ld_status check_steps(const flight_run *run)
 {
     const dormand_prince *steps = &run->steps;
@@ -709,22 +709,22 @@ static ld_status check_steps(const flight_run *run)
                    (long long)steps->step.steps, spent, steps->step.t);
 }
 
-bool flight_run_goes_on(const flight_run *run)
+bool flight_run_continues(const flight_run *run)
 {
     return !run->landed && !run->topped && run->steps.step.t < run->job->t_end;
 }
 
-// Where every row is asked for, or something is measured, all steps are looked at.
+// Where every row is asked for, or something is measured, all steps are checked.
 static void set_next(flight_run *run)
 {
     enum { UNSEEN = 64 }; // steps between looks without a reason
     const measuring measured = measuring_of(run);
     bool all = run->job->row || measuring_is_there(&measured);
-    run->next_look = run->steps.step.steps + (all ? 1 : UNSEEN);
+    run->next_check = run->steps.step.steps + (all ? 1 : UNSEEN);
     run->steps.step.t_stop = next_stop(run);
 }
 
-ld_status flight_run_look(flight_run *run)
+ld_status flight_run_examine(flight_run *run)
 {
     dormand_prince *steps = &run->steps;
     if (steps->step.outcome == DORMAND_PRINCE_LOST)
@@ -755,9 +755,9 @@ ld_status flight_run_step(flight_run *run)
     dormand_prince_step(&run->steps, step->t_stop);
     const flight_step ends = ends_of(run);
     bool seen = flight_watch(run->job->system, &run->phase.number, &ends);
-    bool due = step->steps >= run->next_look || step->t == step->t_stop ||
+    bool due = step->steps >= run->next_check || step->t == step->t_stop ||
                step->outcome == DORMAND_PRINCE_LOST;
-    return seen || due ? flight_run_look(run) : LD_OK;
+    return seen || due ? flight_run_examine(run) : LD_OK;
 }
 
 static ld_status begin(flight_run *run, const double *y)
@@ -770,7 +770,7 @@ static ld_status begin(flight_run *run, const double *y)
     dormand_prince_start(&run->steps, job->t_start, start);
     double height = flight_height(job->system, y);
     run->t_limit = job->t_start + model_run(job->model)->flight_limit;
-    watch(run, job->t_start, y);
+    watch_extremes(run, job->t_start, y);
     if (job->system->has_ground && height < job->system->ground)
         return ld_fail(
             run->error, LD_ERR_LAUNCH,
@@ -784,7 +784,7 @@ static ld_status begin(flight_run *run, const double *y)
     return status ? status : write_row(run, job->t_start, y);
 }
 
-static void note(flight_run *run)
+static void note_warnings(flight_run *run)
 {
     const double degree = acos(0) / 90;
     if (!isnan(run->t_beyond) &&
@@ -893,7 +893,7 @@ void flight_run_end(flight_run *run, ld_status status, double *state)
     flight->t_max_acceleration = run->extremes.t_acceleration - t_ignition;
     flight->max_angle_of_attack = atan2(run->extremes.across, run->extremes.along);
     record_final(run, run->steps.step.t, state, &run->rocket->final);
-    note(run);
+    note_warnings(run);
     run->summary->t_end = run->steps.step.t;
     run->summary->statistics.steps += (int64_t)run->steps.step.steps;
     run->summary->statistics.rhs_evaluations += (int64_t)run->steps.step.evaluations;
@@ -904,7 +904,7 @@ ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
 {
     flight_run run;
     ld_status status = flight_run_begin(&run, self, state, rocket, summary, error);
-    while (!status && flight_run_goes_on(&run))
+    while (!status && flight_run_continues(&run))
         status = flight_run_step(&run);
     flight_run_end(&run, status, state);
     return status;

@@ -27,7 +27,7 @@ typedef struct free_flight {
 } free_flight;
 
 // Flies from `state` (which it leaves at the end); fills `flight`, `final` and the measures of the
-// flight of the rocket, adds to the summary's statistics and notes.
+// flight of the rocket, adds to the summary's statistics and warnings.
 // @return LD_OK, LD_ERR_LAUNCH (begins below ground, beyond the aerodynamic table, does not land),
 //         LD_ERR_NUMERIC, LD_ERR_INTERRUPTED, LD_ERR_MEMORY, or what `row` returned
 ld_status free_flight_run(const free_flight *self, double state[FLIGHT_STATES],
@@ -48,7 +48,7 @@ typedef struct flight_run {
     double next_output, last_row, output_from;
     int64_t output_index;
     double next_progress;
-    double next_look;        // [steps]
+    double next_check;       // [steps]
     double apogee, t_apogee; // [m] as flight_height counts, [s]; NaN at the end: it rises still
     flight_extremes extremes;
     double t_beyond;   // when the Mach number first went past the table's last; NaN: not
@@ -70,15 +70,15 @@ ld_status flight_run_begin(flight_run *self, const free_flight *job, const doubl
                            ld_rocket_summary *rocket, ld_summary *summary, ld_error *error);
 
 // Whether there are steps to come.
-bool flight_run_goes_on(const flight_run *self);
+bool flight_run_continues(const flight_run *self);
 
 // One of them.
 ld_status flight_run_step(flight_run *self);
 
-// After a step of `steps`, or where there was none to be had: what happened in it. It must be asked
-// where the step ended at its stop, or flight_watch says so, or so many steps as `next_look` are
+// After a step of `steps`, or where there was none available: what happened in it. It must be asked
+// where the step ended at its stop, or flight_watch says so, or so many steps as `next_check` are
 // done.
-ld_status flight_run_look(flight_run *self);
+ld_status flight_run_examine(flight_run *self);
 
 // Fills what free_flight_run fills; the state at the end.
 void flight_run_end(flight_run *self, ld_status status, double *state);

@@ -20,7 +20,8 @@ typedef struct component {
     fmu_step last;
 } component;
 
-static void say(const component *self, fmi2Status status, const char *category, const char *text)
+static void log_line(const component *self, fmi2Status status, const char *category,
+                     const char *text)
 {
     if (self->call.logger)
         self->call.logger(self->call.componentEnvironment, self->name, status, category, "%s",
@@ -28,13 +29,13 @@ static void say(const component *self, fmi2Status status, const char *category, 
 }
 
 // What a call came to: LD_OK, or a line of the log.
-static fmi2Status answer(const component *self, ld_status status, const ld_error *error)
+static fmi2Status answer_status(const component *self, ld_status status, const ld_error *error)
 {
     if (!status)
         return fmi2OK;
     if (!self)
         return fmi2Error;
-    say(self, fmi2Error, "logStatusError", error->text);
+    log_line(self, fmi2Error, "logStatusError", error->text);
     return fmi2Error;
 }
 
@@ -42,15 +43,16 @@ static fmi2Status answer(const component *self, ld_status status, const ld_error
 static fmi2Status refuse_call(const component *self, const char *function, const char *why)
 {
     ld_error error;
-    return self ? answer(self, ld_fail(&error, LD_ERR_INPUT, "%s: %s", function, why), &error)
-                : fmi2Error;
+    return self
+               ? answer_status(self, ld_fail(&error, LD_ERR_INPUT, "%s: %s", function, why), &error)
+               : fmi2Error;
 }
 
 static fmi2Status not_offered(void *c, const char *function)
 {
     ld_error error;
-    return answer(c, ld_fail(&error, LD_ERR_MISSING, "%s: this FMU does not offer it", function),
-                  &error);
+    return answer_status(
+        c, ld_fail(&error, LD_ERR_MISSING, "%s: this FMU does not offer it", function), &error);
 }
 
 const char *fmi2GetTypesPlatform(void)
@@ -63,7 +65,7 @@ const char *fmi2GetVersion(void)
     return "2.0";
 }
 
-// Errors are always told: there is nothing else in the log.
+// Errors are always reported: there is nothing else in the log.
 fmi2Status fmi2SetDebugLogging(void *c, int on, size_t count, const char *const *categories)
 {
     (void)c, (void)on, (void)count, (void)categories;
@@ -130,7 +132,8 @@ void *fmi2Instantiate(const char *name, fmi2Type type, const char *guid, const c
         return NULL;
     self->call = *call;
     self->name = strdup(name ? name : "");
-    if (self->name && !answer(self, open_instance(self, type, guid, resources, &error), &error))
+    if (self->name &&
+        !answer_status(self, open_instance(self, type, guid, resources, &error), &error))
         return self;
     free_component(self);
     return NULL;
@@ -149,7 +152,7 @@ fmi2Status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance,
     NEEDS_ALIVE(true);
     ld_error error;
     (void)stop_defined, (void)stop;
-    return answer(
+    return answer_status(
         self, fmu_set_experiment(self->inside, start, tolerance_defined ? tolerance : 0, &error),
         &error);
 }
@@ -166,7 +169,7 @@ fmi2Status fmi2ExitInitializationMode(void *c)
     component *self = c;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_go(self->inside, &error), &error);
+    return answer_status(self, fmu_go(self->inside, &error), &error);
 }
 
 fmi2Status fmi2Terminate(void *c)
@@ -184,7 +187,7 @@ fmi2Status fmi2Reset(void *c)
     ld_error error;
     self->last = (fmu_step){0};
     self->terminated = false;
-    return answer(self, fmu_instance_reset(self->inside, &error), &error);
+    return answer_status(self, fmu_instance_reset(self->inside, &error), &error);
 }
 
 // ---- values ----
@@ -196,8 +199,8 @@ fmi2Status fmi2GetReal(void *c, const unsigned *reference, size_t count, double 
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
-        status = answer(self, fmu_get_number(self->inside, reference[i], false, &value[i], &error),
-                        &error);
+        status = answer_status(
+            self, fmu_get_number(self->inside, reference[i], false, &value[i], &error), &error);
     return status;
 }
 
@@ -208,8 +211,8 @@ fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count, const d
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
-        status = answer(self, fmu_set_number(self->inside, reference[i], false, value[i], &error),
-                        &error);
+        status = answer_status(
+            self, fmu_set_number(self->inside, reference[i], false, value[i], &error), &error);
     return status;
 }
 
@@ -221,8 +224,8 @@ fmi2Status fmi2GetBoolean(void *c, const unsigned *reference, size_t count, int 
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++) {
         double number;
-        status =
-            answer(self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
+        status = answer_status(
+            self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
         value[i] = number == 1;
     }
     return status;
@@ -235,7 +238,7 @@ fmi2Status fmi2SetBoolean(void *c, const unsigned *reference, size_t count, cons
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
-        status = answer(
+        status = answer_status(
             self, fmu_set_number(self->inside, reference[i], true, value[i] != 0, &error), &error);
     return status;
 }
@@ -247,7 +250,8 @@ fmi2Status fmi2GetString(void *c, const unsigned *reference, size_t count, const
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
-        status = answer(self, fmu_get_text(self->inside, reference[i], &value[i], &error), &error);
+        status = answer_status(self, fmu_get_text(self->inside, reference[i], &value[i], &error),
+                               &error);
     return status;
 }
 
@@ -258,7 +262,8 @@ fmi2Status fmi2SetString(void *c, const unsigned *reference, size_t count, const
     ld_error error;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
-        status = answer(self, fmu_set_text(self->inside, reference[i], value[i], &error), &error);
+        status =
+            answer_status(self, fmu_set_text(self->inside, reference[i], value[i], &error), &error);
     return status;
 }
 
@@ -284,7 +289,7 @@ fmi2Status fmi2DoStep(void *c, double t, double size, int no_return)
     ld_error error;
     (void)no_return;
     fmi2Status status =
-        answer(self, fmu_step_on(self->inside, t, size, false, &self->last, &error), &error);
+        answer_status(self, fmu_step_on(self->inside, t, size, false, &self->last, &error), &error);
     return !status && self->last.ended ? fmi2Discard : status;
 }
 
@@ -375,7 +380,7 @@ fmi2Status fmi2GetFMUstate(void *c, void **state)
         free(*state);
         *state = saved;
     }
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi2Status fmi2SetFMUstate(void *c, void *state)
@@ -385,7 +390,7 @@ fmi2Status fmi2SetFMUstate(void *c, void *state)
     ld_error error;
     ld_status status = fmu_load(self->inside, state, &error);
     self->terminated &= status != LD_OK;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(void *c, void *state, size_t *size)
@@ -401,7 +406,7 @@ fmi2Status fmi2SerializeFMUstate(void *c, void *state, char *bytes, size_t size)
     component *self = c;
     NEEDS(state && bytes);
     ld_error error;
-    return answer(self, fmu_state_write(state, bytes, size, &error), &error);
+    return answer_status(self, fmu_state_write(state, bytes, size, &error), &error);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)
@@ -413,7 +418,7 @@ fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void
     ld_status status = fmu_state_read(bytes, size, &read, &error);
     if (!status)
         *state = read;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 // ---- model exchange ----
@@ -423,8 +428,8 @@ fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void
 static fmi2Status answer_trial(const component *self, ld_status status, const ld_error *error)
 {
     if (status != LD_ERR_NUMERIC)
-        return answer(self, status, error);
-    say(self, fmi2Discard, "logStatusDiscard", error->text);
+        return answer_status(self, status, error);
+    log_line(self, fmi2Discard, "logStatusDiscard", error->text);
     return fmi2Discard;
 }
 
@@ -433,7 +438,7 @@ fmi2Status fmi2EnterEventMode(void *c)
     component *self = c;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_enter_event_mode(self->inside, &error), &error);
+    return answer_status(self, fmu_enter_event_mode(self->inside, &error), &error);
 }
 
 fmi2Status fmi2NewDiscreteStates(void *c, fmi2EventInfo *info)
@@ -449,7 +454,7 @@ fmi2Status fmi2NewDiscreteStates(void *c, fmi2EventInfo *info)
         .nextEventTimeDefined = update.next < INFINITY,
         .nextEventTime = update.next,
     };
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi2Status fmi2EnterContinuousTimeMode(void *c)
@@ -457,7 +462,7 @@ fmi2Status fmi2EnterContinuousTimeMode(void *c)
     component *self = c;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_enter_continuous_time(self->inside, &error), &error);
+    return answer_status(self, fmu_enter_continuous_time(self->inside, &error), &error);
 }
 
 fmi2Status fmi2CompletedIntegratorStep(void *c, int no_return, int *enter_event, int *terminate)
@@ -470,7 +475,7 @@ fmi2Status fmi2CompletedIntegratorStep(void *c, int no_return, int *enter_event,
     ld_status status = fmu_complete_step(self->inside, &at_event, &ended, &error);
     *enter_event = at_event;
     *terminate = ended;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi2Status fmi2SetTime(void *c, double t)
@@ -478,7 +483,7 @@ fmi2Status fmi2SetTime(void *c, double t)
     component *self = c;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_set_time(self->inside, t, &error), &error);
+    return answer_status(self, fmu_set_time(self->inside, t, &error), &error);
 }
 
 fmi2Status fmi2SetContinuousStates(void *c, const double *x, size_t count)

@@ -19,7 +19,7 @@ typedef struct component {
     bool terminated;
 } component;
 
-static fmi3Status answer(const component *self, ld_status status, const ld_error *error)
+static fmi3Status answer_status(const component *self, ld_status status, const ld_error *error)
 {
     if (!status)
         return fmi3OK;
@@ -34,16 +34,17 @@ static fmi3Status answer(const component *self, ld_status status, const ld_error
 static fmi3Status refuse_call(const component *self, const char *function, const char *why)
 {
     ld_error error;
-    return self ? answer(self, ld_fail(&error, LD_ERR_INPUT, "%s: %s", function, why), &error)
-                : fmi3Error;
+    return self
+               ? answer_status(self, ld_fail(&error, LD_ERR_INPUT, "%s: %s", function, why), &error)
+               : fmi3Error;
 }
 
 static fmi3Status not_offered(void *instance, const char *function)
 {
     ld_error error;
-    return answer(instance,
-                  ld_fail(&error, LD_ERR_MISSING, "%s: this FMU does not offer it", function),
-                  &error);
+    return answer_status(
+        instance, ld_fail(&error, LD_ERR_MISSING, "%s: this FMU does not offer it", function),
+        &error);
 }
 
 const char *fmi3GetVersion(void)
@@ -51,7 +52,7 @@ const char *fmi3GetVersion(void)
     return "3.0";
 }
 
-// Errors are always told: there is nothing else in the log.
+// Errors are always reported: there is nothing else in the log.
 fmi3Status fmi3SetDebugLogging(void *instance, bool on, size_t count, const char *const *categories)
 {
     (void)instance, (void)on, (void)count, (void)categories;
@@ -60,7 +61,7 @@ fmi3Status fmi3SetDebugLogging(void *instance, bool on, size_t count, const char
 
 // ---- life ----
 
-static void *refuse(fmi3Logger log, void *environment, const char *text)
+static void *refuse_instance(fmi3Logger log, void *environment, const char *text)
 {
     if (log)
         log(environment, fmi3Error, "logStatusError", text);
@@ -73,10 +74,10 @@ static void *open_instance(const char *token, const char *resources, const compo
 {
     ld_error error;
     if (!token || !resources)
-        return refuse(log, environment, "token or location of the resources is missing");
+        return refuse_instance(log, environment, "token or location of the resources is missing");
     component *self = calloc(1, sizeof *self);
     if (!self)
-        return refuse(log, environment, "no memory");
+        return refuse_instance(log, environment, "no memory");
     *self = *kind;
     self->log = log;
     self->environment = environment;
@@ -84,7 +85,7 @@ static void *open_instance(const char *token, const char *resources, const compo
     if (self->inside)
         return self;
     free(self);
-    return refuse(log, environment, error.text);
+    return refuse_instance(log, environment, error.text);
 }
 
 void *fmi3InstantiateModelExchange(const char *name, const char *token, const char *resources,
@@ -101,7 +102,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
 {
     (void)name, (void)visible, (void)logging, (void)intermediate, (void)update;
     if (intermediates > 0)
-        return refuse(log, environment, "intermediate updates are not supported");
+        return refuse_instance(log, environment, "intermediate updates are not supported");
     return open_instance(token, resources, &(component){.at_events = event_mode && early_return},
                          environment, log);
 }
@@ -113,7 +114,7 @@ void *fmi3InstantiateScheduledExecution(const char *name, const char *token, con
 {
     (void)name, (void)token, (void)resources, (void)visible, (void)logging;
     (void)clock, (void)lock, (void)unlock;
-    return refuse(log, environment, "this FMU supports co-simulation and model exchange");
+    return refuse_instance(log, environment, "this FMU supports co-simulation and model exchange");
 }
 
 void fmi3FreeInstance(void *instance)
@@ -132,7 +133,7 @@ fmi3Status fmi3EnterInitializationMode(void *instance, bool tolerance_defined, d
     NEEDS_ALIVE(true);
     ld_error error;
     (void)stop_defined, (void)stop;
-    return answer(
+    return answer_status(
         self, fmu_set_experiment(self->inside, start, tolerance_defined ? tolerance : 0, &error),
         &error);
 }
@@ -142,7 +143,7 @@ fmi3Status fmi3ExitInitializationMode(void *instance)
     component *self = instance;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_go(self->inside, &error), &error);
+    return answer_status(self, fmu_go(self->inside, &error), &error);
 }
 
 fmi3Status fmi3EnterConfigurationMode(void *instance)
@@ -170,7 +171,7 @@ fmi3Status fmi3Reset(void *instance)
     ld_error error;
     self->ended = false;
     self->terminated = false;
-    return answer(self, fmu_instance_reset(self->inside, &error), &error);
+    return answer_status(self, fmu_instance_reset(self->inside, &error), &error);
 }
 
 // ---- values ----
@@ -178,12 +179,12 @@ fmi3Status fmi3Reset(void *instance)
 static fmi3Status check_counts(const component *self, size_t references, size_t values)
 {
     ld_error error;
-    return references == values
-               ? fmi3OK
-               : answer(self,
-                        ld_fail(&error, LD_ERR_INPUT, "found %zu values for %zu scalar variables",
-                                values, references),
-                        &error);
+    return references == values ? fmi3OK
+                                : answer_status(self,
+                                                ld_fail(&error, LD_ERR_INPUT,
+                                                        "found %zu values for %zu scalar variables",
+                                                        values, references),
+                                                &error);
 }
 
 fmi3Status fmi3GetFloat64(void *instance, const uint32_t *reference, size_t references,
@@ -194,8 +195,8 @@ fmi3Status fmi3GetFloat64(void *instance, const uint32_t *reference, size_t refe
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer(self, fmu_get_number(self->inside, reference[i], false, &value[i], &error),
-                        &error);
+        status = answer_status(
+            self, fmu_get_number(self->inside, reference[i], false, &value[i], &error), &error);
     return status;
 }
 
@@ -207,8 +208,8 @@ fmi3Status fmi3SetFloat64(void *instance, const uint32_t *reference, size_t refe
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer(self, fmu_set_number(self->inside, reference[i], false, value[i], &error),
-                        &error);
+        status = answer_status(
+            self, fmu_set_number(self->inside, reference[i], false, value[i], &error), &error);
     return status;
 }
 
@@ -221,8 +222,8 @@ fmi3Status fmi3GetBoolean(void *instance, const uint32_t *reference, size_t refe
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++) {
         double number;
-        status =
-            answer(self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
+        status = answer_status(
+            self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
         value[i] = number == 1;
     }
     return status;
@@ -236,8 +237,8 @@ fmi3Status fmi3SetBoolean(void *instance, const uint32_t *reference, size_t refe
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer(self, fmu_set_number(self->inside, reference[i], true, value[i], &error),
-                        &error);
+        status = answer_status(
+            self, fmu_set_number(self->inside, reference[i], true, value[i], &error), &error);
     return status;
 }
 
@@ -249,7 +250,8 @@ fmi3Status fmi3GetString(void *instance, const uint32_t *reference, size_t refer
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer(self, fmu_get_text(self->inside, reference[i], &value[i], &error), &error);
+        status = answer_status(self, fmu_get_text(self->inside, reference[i], &value[i], &error),
+                               &error);
     return status;
 }
 
@@ -261,7 +263,8 @@ fmi3Status fmi3SetString(void *instance, const uint32_t *reference, size_t refer
     ld_error error;
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer(self, fmu_set_text(self->inside, reference[i], value[i], &error), &error);
+        status =
+            answer_status(self, fmu_set_text(self->inside, reference[i], value[i], &error), &error);
     return status;
 }
 
@@ -348,7 +351,7 @@ fmi3Status fmi3DoStep(void *instance, double t, double size, bool no_return, boo
     *terminate = step.ended;
     *early = step.event && step.t < t + size;
     *reached = step.t;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi3Status fmi3EnterEventMode(void *instance)
@@ -356,7 +359,7 @@ fmi3Status fmi3EnterEventMode(void *instance)
     component *self = instance;
     NEEDS_ALIVE(true);
     ld_error error;
-    return self->exchange ? answer(self, fmu_enter_event_mode(self->inside, &error), &error)
+    return self->exchange ? answer_status(self, fmu_enter_event_mode(self->inside, &error), &error)
                           : fmi3OK;
 }
 
@@ -381,7 +384,7 @@ fmi3Status fmi3UpdateDiscreteStates(void *instance, bool *again, bool *terminate
     *values = update.changed;
     *next_defined = update.next < INFINITY;
     *next = update.next;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi3Status fmi3EvaluateDiscreteStates(void *instance)
@@ -436,7 +439,7 @@ fmi3Status fmi3GetFMUState(void *instance, void **state)
         free(*state);
         *state = saved;
     }
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi3Status fmi3SetFMUState(void *instance, void *state)
@@ -446,7 +449,7 @@ fmi3Status fmi3SetFMUState(void *instance, void *state)
     ld_error error;
     ld_status status = fmu_load(self->inside, state, &error);
     self->terminated &= status != LD_OK;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 fmi3Status fmi3SerializedFMUStateSize(void *instance, void *state, size_t *size)
@@ -462,7 +465,7 @@ fmi3Status fmi3SerializeFMUState(void *instance, void *state, uint8_t *bytes, si
     component *self = instance;
     NEEDS(state && bytes);
     ld_error error;
-    return answer(self, fmu_state_write(state, bytes, size, &error), &error);
+    return answer_status(self, fmu_state_write(state, bytes, size, &error), &error);
 }
 
 fmi3Status fmi3DeserializeFMUState(void *instance, const uint8_t *bytes, size_t size, void **state)
@@ -474,7 +477,7 @@ fmi3Status fmi3DeserializeFMUState(void *instance, const uint8_t *bytes, size_t 
     ld_status status = fmu_state_read(bytes, size, &read, &error);
     if (!status)
         *state = read;
-    return answer(self, status, &error);
+    return answer_status(self, status, &error);
 }
 
 // ---- clocks: there are none ----
@@ -555,7 +558,7 @@ fmi3Status fmi3ActivateModelPartition(void *instance, uint32_t clock, double t)
 static fmi3Status answer_trial(const component *self, ld_status status, const ld_error *error)
 {
     if (status != LD_ERR_NUMERIC)
-        return answer(self, status, error);
+        return answer_status(self, status, error);
     if (self->log)
         self->log(self->environment, fmi3Discard, "logStatusDiscard", error->text);
     return fmi3Discard;
@@ -566,7 +569,7 @@ fmi3Status fmi3EnterContinuousTimeMode(void *instance)
     component *self = instance;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_enter_continuous_time(self->inside, &error), &error);
+    return answer_status(self, fmu_enter_continuous_time(self->inside, &error), &error);
 }
 
 fmi3Status fmi3CompletedIntegratorStep(void *instance, bool no_return, bool *event, bool *terminate)
@@ -575,7 +578,7 @@ fmi3Status fmi3CompletedIntegratorStep(void *instance, bool no_return, bool *eve
     NEEDS_ALIVE(event && terminate);
     ld_error error;
     (void)no_return;
-    return answer(self, fmu_complete_step(self->inside, event, terminate, &error), &error);
+    return answer_status(self, fmu_complete_step(self->inside, event, terminate, &error), &error);
 }
 
 fmi3Status fmi3SetTime(void *instance, double t)
@@ -583,7 +586,7 @@ fmi3Status fmi3SetTime(void *instance, double t)
     component *self = instance;
     NEEDS_ALIVE(true);
     ld_error error;
-    return answer(self, fmu_set_time(self->inside, t, &error), &error);
+    return answer_status(self, fmu_set_time(self->inside, t, &error), &error);
 }
 
 fmi3Status fmi3SetContinuousStates(void *instance, const double *x, size_t count)
@@ -626,7 +629,8 @@ fmi3Status fmi3GetNumberOfEventIndicators(void *instance, size_t *count)
     component *self = instance;
     NEEDS(count);
     ld_error error;
-    return answer(self, fmu_count_vector(self->inside, FMU_INDICATORS, count, &error), &error);
+    return answer_status(self, fmu_count_vector(self->inside, FMU_INDICATORS, count, &error),
+                         &error);
 }
 
 fmi3Status fmi3GetNumberOfContinuousStates(void *instance, size_t *count)
@@ -634,5 +638,5 @@ fmi3Status fmi3GetNumberOfContinuousStates(void *instance, size_t *count)
     component *self = instance;
     NEEDS(count);
     ld_error error;
-    return answer(self, fmu_count_vector(self->inside, FMU_STATES, count, &error), &error);
+    return answer_status(self, fmu_count_vector(self->inside, FMU_STATES, count, &error), &error);
 }

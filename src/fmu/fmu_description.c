@@ -24,7 +24,7 @@ static const derived_unit derived_units[] = {
     {"rad", {0, 0, 0, 0, 1}}, {"1", {0, 0, 0, 0, 0}},
 };
 
-// Adds powers of one factor of a unit, "m2" or "rad"; false: none that whole powers tell.
+// Adds powers of one factor of a unit, "m2" or "rad"; false: none that whole powers report.
 static bool add_factor(const char *text, size_t length, int sign, int power[BASE_UNITS])
 {
     size_t letters = 0;
@@ -237,7 +237,7 @@ static bool sums_works(const fmu_variable *v)
            (begins(v->name, "work.") || strcmp(v->name, "energy.residual") == 0);
 }
 
-// While time goes on; results are told once, by what has happened.
+// While time continues; results are reported once, by what has happened.
 static known known_of(const fmu_variables *all, const fmu_variable *v)
 {
     if (v->group == FMU_RESULT)
@@ -251,8 +251,8 @@ static known known_of(const fmu_variables *all, const fmu_variable *v)
 
 static bool is_known(const known *from, const fmu_variable *v)
 {
-    return v->group == FMU_TIME    ? from->time
-           : v->group == FMU_TOLD  ? from->told
+    return v->group == FMU_TIME         ? from->time
+           : v->group == FMU_PART_INPUT ? from->told
            : v->group == FMU_STATE ? (begins(v->name, "state.work.") ? from->works : from->states)
                                    : fmu_is_parameter(v) && from->parameters;
 }
@@ -278,7 +278,7 @@ static void write_unknowns(FILE *stream, const fmu_description *self, const char
 {
     const fmu_variables *all = self->variables;
     const size_t first = self->version == 2 ? 1 : 0;
-    const bool listed = !initial || (all->runner->told_count > 0 && !all->runner->follows);
+    const bool listed = !initial || (all->runner->input_count > 0 && !all->runner->follows);
     if (self->version == 2)
         fprintf(stream, "    <%s>\n", element);
     for (size_t i = 0; i < all->count; i++) {

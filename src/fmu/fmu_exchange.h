@@ -26,7 +26,7 @@ ld_status fmu_enter_event_mode(fmu_instance *self, ld_error *error);
 // What came of an event.
 typedef struct fmu_update {
     bool ended;   // the launch is over
-    bool changed; // states or equations may be others: an integrator begins anew
+    bool changed; // states or equations may be others: an integrator begins again
     double next;  // [s] on the importer's clock, when a step must end; infinity: not known
 } fmu_update;
 

@@ -74,8 +74,9 @@ static void add_words(char *identifier, size_t size, const char *text)
     identifier[length] = '\0';
 }
 
-// A name of C: several FMUs may be open in one importer that tells their binaries by it.
-static void identify(const ld_model *model, ld_fmu_part part, char identifier[IDENTIFIER_SIZE])
+// A name of C: several FMUs may be open in one importer that distinguishes their binaries by it.
+static void make_identifier(const ld_model *model, ld_fmu_part part,
+                            char identifier[IDENTIFIER_SIZE])
 {
     enum { LONGEST_TITLE = 64 };
     strcpy(identifier, "launchdyn");
@@ -97,7 +98,7 @@ static ld_status print_description(const fmu_part *part, const fmu_variables *va
                                    .variables = variables};
     fmu_token(self->scenario, self->scenario_length, part->which, token);
     name_part(self->model, part->which, title);
-    identify(self->model, part->which, self->identifier);
+    make_identifier(self->model, part->which, self->identifier);
     ld_model_number(self->model, "run.tolerance", &description.tolerance, NULL);
     FILE *stream = memory_stream(&self->description, &self->description_length);
     if (stream)
@@ -126,7 +127,7 @@ static ld_status find_stop(const ld_model *model, const ld_simulation *whole, do
     return status == LD_ERR_MEMORY ? status : LD_OK;
 }
 
-// The launcher of a vehicle is simulated by itself.
+// The launcher of a vehicle is simulated on its own.
 ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part *part,
                              fmu_variables *variables, ld_error *error)
 {

@@ -1,5 +1,5 @@
 // The program that runs an FMU of other people's in a process of its own: does what it is asked for
-// (foreign/protocol.h), one request after the other, until it is told to end or nobody is there to
+// (foreign/protocol.h), one request after the other, until it is asked to end or no one is there to
 // ask any more. It lies inside programs and library (cmake/host_inside.c).
 #define _GNU_SOURCE // POLLRDHUP; NOLINT(bugprone-reserved-identifier)
 #include <dlfcn.h>
@@ -59,7 +59,7 @@ static struct {
     FUNCTIONS_2(MEMBER) FUNCTIONS_3(MEMBER)
 } host;
 
-// Calls a function of the FMU, whose name is told first.
+// Calls a function of the FMU, whose name is sent first.
 #define CALL(name, ...)                                                                            \
     (snprintf(host.shared->function, sizeof host.shared->function, "%s", #name),                   \
      !host.name ? missing(#name) : (int)host.name(__VA_ARGS__))
@@ -75,7 +75,7 @@ _Static_assert((int)fmi2Error == (int)fmi3Error && (int)fmi2Discard == (int)fmi3
                    (int)fmi2Warning == (int)fmi3Warning,
                "both versions count alike");
 
-static foreign_result judged(int status)
+static foreign_result result_of_status(int status)
 {
     return status == fmi2OK || status == fmi2Warning ? FOREIGN_DONE : FOREIGN_REFUSED;
 }
@@ -120,7 +120,7 @@ static bool load(const foreign_opening *opening)
     return true;
 }
 
-static void *nothing(void)
+static void *refuse_instance(void)
 {
     snprintf(host.shared->said, FOREIGN_LONGEST_SAID, "its binary has no function to instantiate");
     return NULL;
@@ -143,28 +143,30 @@ static foreign_result open_fmu(const foreign_opening *opening)
         host.instance = host.fmi2Instantiate
                             ? host.fmi2Instantiate(name, fmi2CoSimulation, opening->token, uri,
                                                    &host.callbacks, 0, 0)
-                            : nothing();
+                            : refuse_instance();
     else
         host.instance =
             host.fmi3InstantiateCoSimulation
                 ? host.fmi3InstantiateCoSimulation(name, opening->token, opening->resources, false,
                                                    false, false, false, NULL, 0, NULL, log_3, NULL)
-                : nothing();
+                : refuse_instance();
     return host.instance ? FOREIGN_DONE : FOREIGN_REFUSED;
 }
 
-static foreign_result enter(double start)
+static foreign_result enter_initialization(double start)
 {
     if (host.version == 3)
-        return judged(CALL(fmi3EnterInitializationMode, host.instance, false, 0, start, false, 0));
-    foreign_result result = judged(CALL(fmi2SetupExperiment, host.instance, 0, 0, start, 0, 0));
-    return result ? result : judged(CALL(fmi2EnterInitializationMode, host.instance));
+        return result_of_status(
+            CALL(fmi3EnterInitializationMode, host.instance, false, 0, start, false, 0));
+    foreign_result result =
+        result_of_status(CALL(fmi2SetupExperiment, host.instance, 0, 0, start, 0, 0));
+    return result ? result : result_of_status(CALL(fmi2EnterInitializationMode, host.instance));
 }
 
-static foreign_result leave(void)
+static foreign_result leave_initialization(void)
 {
-    return judged(host.version == 2 ? CALL(fmi2ExitInitializationMode, host.instance)
-                                    : CALL(fmi3ExitInitializationMode, host.instance));
+    return result_of_status(host.version == 2 ? CALL(fmi2ExitInitializationMode, host.instance)
+                                              : CALL(fmi3ExitInitializationMode, host.instance));
 }
 
 // ---- values
@@ -261,7 +263,7 @@ static foreign_result set_values(const foreign_value *value, size_t count)
     for (size_t i = 0; i < count && !result; i += length_of(&value[i]))
         result = length_of(&value[i]) > count - i
                      ? FOREIGN_BAD
-                     : judged(host.version == 2 ? set_2(&value[i]) : set_3(&value[i]));
+                     : result_of_status(host.version == 2 ? set_2(&value[i]) : set_3(&value[i]));
     return result;
 }
 
@@ -271,15 +273,16 @@ static foreign_result get_values(const foreign_value *value, size_t count, doubl
     for (size_t i = 0; i < count && !result; i += length_of(&value[i]))
         result = length_of(&value[i]) > count - i
                      ? FOREIGN_BAD
-                     : judged(host.version == 2 ? get_2(&value[i], &number[i])
-                                                : get_3(&value[i], &number[i]));
+                     : result_of_status(host.version == 2 ? get_2(&value[i], &number[i])
+                                                          : get_3(&value[i], &number[i]));
     return result;
 }
 
 static foreign_result set_text(uint32_t reference, const char *text)
 {
-    return judged(host.version == 2 ? CALL(fmi2SetString, host.instance, &reference, 1, &text)
-                                    : CALL(fmi3SetString, host.instance, &reference, 1, &text, 1));
+    return result_of_status(host.version == 2
+                                ? CALL(fmi2SetString, host.instance, &reference, 1, &text)
+                                : CALL(fmi3SetString, host.instance, &reference, 1, &text, 1));
 }
 
 // ---- states
@@ -296,7 +299,7 @@ static int set_state(void *state)
                              : CALL(fmi3SetFMUState, host.instance, state);
 }
 
-// Not told of: what has gone wrong before it is.
+// Not reported of: what has gone wrong before it is.
 static void free_state(void **state)
 {
     if (*state && host.version == 2 && host.fmi2FreeFMUstate)
@@ -314,12 +317,12 @@ static int size_of(void *state, size_t *size)
 static foreign_result save(char **bytes, size_t *size)
 {
     void *state = NULL;
-    foreign_result result = judged(get_state(&state));
+    foreign_result result = result_of_status(get_state(&state));
     if (!result)
-        result = judged(size_of(state, size));
+        result = result_of_status(size_of(state, size));
     *bytes = result ? NULL : malloc(*size ? *size : 1);
     if (!result)
-        result = judged(
+        result = result_of_status(
             host.version == 2
                 ? CALL(fmi2SerializeFMUstate, host.instance, state, *bytes, *size)
                 : CALL(fmi3SerializeFMUState, host.instance, state, (uint8_t *)*bytes, *size));
@@ -330,12 +333,12 @@ static foreign_result save(char **bytes, size_t *size)
 static foreign_result restore(const char *bytes, size_t size)
 {
     void *state = NULL;
-    foreign_result result =
-        judged(host.version == 2 ? CALL(fmi2DeSerializeFMUstate, host.instance, bytes, size, &state)
-                                 : CALL(fmi3DeserializeFMUState, host.instance,
-                                        (const uint8_t *)bytes, size, &state));
+    foreign_result result = result_of_status(
+        host.version == 2
+            ? CALL(fmi2DeSerializeFMUstate, host.instance, bytes, size, &state)
+            : CALL(fmi3DeserializeFMUState, host.instance, (const uint8_t *)bytes, size, &state));
     if (!result)
-        result = judged(set_state(state));
+        result = result_of_status(set_state(state));
     free_state(&state);
     return result;
 }
@@ -350,9 +353,10 @@ static int step_once(double t, double size, double *reached, bool *ends)
     *ends = false;
     if (host.version == 3) {
         bool event, early = false;
-        double last = end; // a unit of fixed steps says where the last of these ended, and goes on
+        double last =
+            end; // a unit of fixed steps says where the last of these ended, and continues
         int status = CALL(fmi3DoStep, host.instance, t, size, true, &event, ends, &early, &last);
-        if (judged(status) != FOREIGN_DONE || !early || !(last < t + size * (1 - 1e-9)))
+        if (result_of_status(status) != FOREIGN_DONE || !early || !(last < t + size * (1 - 1e-9)))
             return status;
         *reached = last;
         return fmi3Discard;
@@ -369,7 +373,7 @@ static int step_once(double t, double size, double *reached, bool *ends)
     return status;
 }
 
-// To the step's end in as many pieces as the FMU wants: where it has gone a part of the way,
+// To the step's end in as many pieces as the FMU requires: where it has gone a part of the way,
 // onwards from there; where it has not, from the state before by half of it.
 static foreign_result step(const foreign_stepping *to, int64_t *pieces)
 {
@@ -381,16 +385,16 @@ static foreign_result step(const foreign_stepping *to, int64_t *pieces)
         void *before = NULL;
         double reached;
         bool ends;
-        if (host.keeps_state && judged(get_state(&before)))
+        if (host.keeps_state && result_of_status(get_state(&before)))
             return FOREIGN_REFUSED;
         int status = step_once(t, size, &reached, &ends);
         bool stuck = status == fmi2Discard && !(reached > t) && !ends;
-        if (stuck && host.keeps_state && judged(set_state(before)))
+        if (stuck && host.keeps_state && result_of_status(set_state(before)))
             status = fmi2Error;
         free_state(&before);
         if (ends)
             return FOREIGN_ENDS;
-        if (status != fmi2Discard && judged(status))
+        if (status != fmi2Discard && result_of_status(status))
             return FOREIGN_REFUSED;
         if (stuck && !host.keeps_state)
             return FOREIGN_NO_STEP;
@@ -416,7 +420,7 @@ static bool receive(void *bytes, size_t size)
     return true;
 }
 
-static bool answer(foreign_result result, const void *bytes, size_t size)
+static bool send_answer(foreign_result result, const void *bytes, size_t size)
 {
     foreign_answer head = {.size = size, .result = result};
     return send(FOREIGN_SOCKET, &head, sizeof head, MSG_NOSIGNAL) == sizeof head &&
@@ -430,16 +434,16 @@ static bool answer_step(const char *body, size_t size)
     if (size < sizeof *to || to->inputs > FOREIGN_MOST_VALUES ||
         to->outputs > FOREIGN_MOST_VALUES ||
         size != sizeof *to + (to->inputs + to->outputs) * sizeof(foreign_value))
-        return answer(FOREIGN_BAD, NULL, 0);
+        return send_answer(FOREIGN_BAD, NULL, 0);
     const foreign_value *value = (const void *)(body + sizeof *to);
     foreign_result result = set_values(value, to->inputs);
     if (!result)
         result = step(to, &out.pieces);
     if (!result)
         result = get_values(value + to->inputs, to->outputs, out.number);
-    return answer(result, &out,
-                  result ? 0
-                         : offsetof(foreign_step_answer, number) + to->outputs * sizeof(double));
+    return send_answer(
+        result, &out,
+        result ? 0 : offsetof(foreign_step_answer, number) + to->outputs * sizeof(double));
 }
 
 static bool answer_values(foreign_kind kind, const char *body, size_t size)
@@ -447,20 +451,20 @@ static bool answer_values(foreign_kind kind, const char *body, size_t size)
     double number[FOREIGN_MOST_VALUES];
     size_t count = size / sizeof(foreign_value);
     if (count > FOREIGN_MOST_VALUES)
-        return answer(FOREIGN_BAD, NULL, 0);
+        return send_answer(FOREIGN_BAD, NULL, 0);
     if (kind == FOREIGN_SET)
-        return answer(set_values((const void *)body, count), NULL, 0);
+        return send_answer(set_values((const void *)body, count), NULL, 0);
     foreign_result result = get_values((const void *)body, count, number);
-    return answer(result, number, result ? 0 : count * sizeof *number);
+    return send_answer(result, number, result ? 0 : count * sizeof *number);
 }
 
 static bool answer_set_text(const char *body, size_t size)
 {
     uint32_t reference;
     if (size <= sizeof reference || body[size - 1])
-        return answer(FOREIGN_BAD, NULL, 0);
+        return send_answer(FOREIGN_BAD, NULL, 0);
     memcpy(&reference, body, sizeof reference);
-    return answer(set_text(reference, body + sizeof reference), NULL, 0);
+    return send_answer(set_text(reference, body + sizeof reference), NULL, 0);
 }
 
 static bool answer_save(void)
@@ -468,33 +472,33 @@ static bool answer_save(void)
     char *bytes = NULL;
     size_t size = 0;
     foreign_result result = save(&bytes, &size);
-    bool sent = answer(result, bytes, result ? 0 : size);
+    bool sent = send_answer(result, bytes, result ? 0 : size);
     free(bytes);
     return sent;
 }
 
-static bool serve(foreign_kind kind, const char *body, size_t size)
+static bool serve_request(foreign_kind kind, const char *body, size_t size)
 {
     switch (kind) {
     case FOREIGN_OPEN:
-        return answer(open_fmu((const void *)body), NULL, 0);
+        return send_answer(open_fmu((const void *)body), NULL, 0);
     case FOREIGN_ENTER:
-        return answer(enter(*(const double *)(const void *)body), NULL, 0);
+        return send_answer(enter_initialization(*(const double *)(const void *)body), NULL, 0);
     case FOREIGN_SET:
     case FOREIGN_GET:
         return answer_values(kind, body, size);
     case FOREIGN_SET_TEXT:
         return answer_set_text(body, size);
     case FOREIGN_LEAVE:
-        return answer(leave(), NULL, 0);
+        return send_answer(leave_initialization(), NULL, 0);
     case FOREIGN_STEP:
         return answer_step(body, size);
     case FOREIGN_SAVE:
         return answer_save();
     case FOREIGN_LOAD:
-        return answer(restore(body, size), NULL, 0);
+        return send_answer(restore(body, size), NULL, 0);
     default:
-        return answer(FOREIGN_BAD, NULL, 0);
+        return send_answer(FOREIGN_BAD, NULL, 0);
     }
 }
 
@@ -514,8 +518,8 @@ static void end_fmu(void)
 }
 
 // Whatever the FMU is at, this process ends with the one that asks; what that has unpacked goes,
-// too. The FMU may have closed the socket: whether the other one is there, the system tells.
-static void *watch(void *unused)
+// too. The FMU may have closed the socket: whether the other one is there, the system reports.
+static void *watch_parent(void *unused)
 {
     enum { OFTEN = 10, SELDOM = 1000 }; // [ms]
     struct pollfd other = {.fd = FOREIGN_SOCKET, .events = POLLRDHUP};
@@ -538,18 +542,18 @@ int main(void)
     host.asking = getppid();
     host.shared =
         mmap(NULL, sizeof *host.shared, PROT_READ | PROT_WRITE, MAP_SHARED, FOREIGN_SHARED, 0);
-    if (host.shared == MAP_FAILED || pthread_create(&watcher, NULL, watch, NULL))
+    if (host.shared == MAP_FAILED || pthread_create(&watcher, NULL, watch_parent, NULL))
         return 1;
     bool fine = true;
     while (fine && (fine = receive(&request, sizeof request)) && request.kind != FOREIGN_END) {
         char *body = malloc(request.size ? request.size : 1);
         fine = body && receive(body, request.size) &&
-               serve((foreign_kind)request.kind, body, request.size);
+               serve_request((foreign_kind)request.kind, body, request.size);
         free(body);
     }
     if (fine) {
         end_fmu();
-        answer(FOREIGN_DONE, NULL, 0);
+        send_answer(FOREIGN_DONE, NULL, 0);
     }
     for (;;)
         pause(); // the one that asks ends this process, or its end does

@@ -26,7 +26,7 @@ static ld_status no_memory(ld_error *error)
 
 void fmu_forget_outputs(fmu_instance *self)
 {
-    self->known.row = self->known.result = self->known.tells = false;
+    self->known.row = self->known.result = self->known.outputs = false;
 }
 
 static void end_run(fmu_instance *self)
@@ -37,7 +37,7 @@ static void end_run(fmu_instance *self)
     fmu_forget_outputs(self);
 }
 
-static void unbuild(fmu_instance *self)
+static void release_model(fmu_instance *self)
 {
     end_run(self);
     ld_simulation_free(self->simulation);
@@ -47,7 +47,7 @@ static void unbuild(fmu_instance *self)
 }
 
 // The first message of the reader in one sentence.
-static ld_status told(const ld_messages *messages, ld_status status, ld_error *error)
+static ld_status first_message(const ld_messages *messages, ld_status status, ld_error *error)
 {
     if (messages->count == 0)
         return ld_fail(error, status, "no memory");
@@ -113,7 +113,7 @@ static ld_status read_model(fmu_instance *self, ld_error *error)
     if (!status) {
         status = ld_scenario_read_source(source, 0, &self->model, &messages);
         if (status)
-            told(&messages, status, error);
+            first_message(&messages, status, error);
         else
             fmu_part_take(self->part.which, self->model);
         ld_messages_free(&messages);
@@ -122,7 +122,7 @@ static ld_status read_model(fmu_instance *self, ld_error *error)
     return status;
 }
 
-// A model whose columns are others than those that the FMU has cannot be told by it.
+// A model whose columns are others than those that the FMU has cannot be reported by it.
 static ld_status check_columns(const fmu_instance *self, ld_error *error)
 {
     const ld_column *column;
@@ -151,7 +151,7 @@ static ld_status build(fmu_instance *self, ld_error *error)
     uint64_t digest = parameters_digest(self);
     if (self->simulation && digest == self->built_with)
         return LD_OK;
-    unbuild(self);
+    release_model(self);
     self->built_with = digest;
     ld_status status = read_model(self, error);
     if (!status)
@@ -159,7 +159,7 @@ static ld_status build(fmu_instance *self, ld_error *error)
     if (!status && self->variables.count > 0)
         status = check_columns(self, error);
     if (status)
-        unbuild(self);
+        release_model(self);
     return status;
 }
 
@@ -171,35 +171,36 @@ static double number_of(const fmu_instance *self, fmu_group group, int index)
     return 0;
 }
 
-// What the inputs are that another FMU tells. At the start (`first`) what nobody has set is what
+// What the inputs are that another FMU reports. At the start (`first`) what no one has set is what
 // the run finds.
-static void find_told(const fmu_instance *self, bool first, double told[FMU_MOST_NUMBERS])
+static void find_inputs(const fmu_instance *self, bool first, double inputs[FMU_MOST_NUMBERS])
 {
-    memcpy(told, self->part.start, FMU_MOST_NUMBERS * sizeof *told);
+    memcpy(inputs, self->part.start, FMU_MOST_NUMBERS * sizeof *inputs);
     for (size_t i = 0; i < self->variables.count; i++)
-        if (self->variables.item[i].group == FMU_TOLD && (self->changed[i] || !first))
-            told[self->variables.item[i].index] = self->number[i];
+        if (self->variables.item[i].group == FMU_PART_INPUT && (self->changed[i] || !first))
+            inputs[self->variables.item[i].index] = self->number[i];
 }
 
-// Whether this frame has not been told, nor any before it: a quaternion of zeros, as importers have
-// that begin every input at zero. Then the base is, and goes on, as at the start.
-static bool is_untold(const fmu_instance *self, const double told[FMU_MOST_NUMBERS], bool first)
+// Whether this frame has not been reported, nor any before it: a quaternion of zeros, as importers
+// have that begin every input at zero. Then the base is, and continues, as at the start.
+static bool lacks_inputs(const fmu_instance *self, const double inputs[FMU_MOST_NUMBERS],
+                         bool first)
 {
-    if (self->variables.runner->told_count != FMU_FRAME_NUMBERS || self->exchange.is)
+    if (self->variables.runner->input_count != FMU_FRAME_NUMBERS || self->exchange.is)
         return false;
     for (int i = 3; i < 7; i++)
-        if (told[i] != 0)
+        if (inputs[i] != 0)
             return false;
-    return first ||
-           memcmp((const char *)self->told, (const char *)self->part.start, sizeof self->told) == 0;
+    return first || memcmp((const char *)self->inputs, (const char *)self->part.start,
+                           sizeof self->inputs) == 0;
 }
 
 // The inputs are what the run has begun with.
-static void keep_told(fmu_instance *self)
+static void keep_inputs(fmu_instance *self)
 {
     for (size_t i = 0; i < self->variables.count; i++)
-        if (self->variables.item[i].group == FMU_TOLD)
-            self->number[i] = self->told[self->variables.item[i].index];
+        if (self->variables.item[i].group == FMU_PART_INPUT)
+            self->number[i] = self->inputs[self->variables.item[i].index];
 }
 
 // An importer that takes the steps is where the run is, which has just begun or come back.
@@ -209,7 +210,7 @@ static void take_place(fmu_instance *self)
     if (!self->exchange.is)
         return;
     self->exchange.t = self->variables.runner->time(self->run) + self->ahead;
-    launch_outside_get(self->run, self->exchange.x);
+    launch_exchange_get(self->run, self->exchange.x);
 }
 
 // It is the importer's, and over.
@@ -227,26 +228,26 @@ static ld_status fill(int count, double value, double *values)
 
 ld_status fmu_rates(fmu_instance *self, double *rates, ld_error *error)
 {
-    return stands_still(self) ? fill(launch_outside_states(self->run), 0, rates)
-                              : launch_outside_rates(self->run, rates, error);
+    return stands_still(self) ? fill(launch_exchange_states(self->run), 0, rates)
+                              : launch_exchange_rates(self->run, rates, error);
 }
 
 ld_status fmu_indicators(fmu_instance *self, double *values, ld_error *error)
 {
-    return stands_still(self) ? fill(launch_outside_indicators(self->run), 1, values)
-                              : launch_outside_values(self->run, values, error);
+    return stands_still(self) ? fill(launch_exchange_indicators(self->run), 1, values)
+                              : launch_exchange_values(self->run, values, error);
 }
 
 ld_status fmu_place(fmu_instance *self, ld_error *error)
 {
-    double told[FMU_MOST_NUMBERS];
+    double inputs[FMU_MOST_NUMBERS];
     if (!self->exchange.is || !self->exchange.moved || stands_still(self))
         return LD_OK;
-    find_told(self, false, told);
+    find_inputs(self, false, inputs);
     self->exchange.moved = false;
     fmu_forget_outputs(self);
-    return self->variables.runner->exchanging->place(self->run, self->exchange.t - self->ahead,
-                                                     self->exchange.x, told, error);
+    return self->variables.runner->exchanging->set_state(self->run, self->exchange.t - self->ahead,
+                                                         self->exchange.x, inputs, error);
 }
 
 ld_status fmu_begin(fmu_instance *self, ld_error *error)
@@ -257,18 +258,18 @@ ld_status fmu_begin(fmu_instance *self, ld_error *error)
     ld_status status = build(self, error);
     if (status)
         return status;
-    find_told(self, true, self->told);
-    if (is_untold(self, self->told, true))
-        memcpy(self->told, self->part.start, sizeof self->told);
-    self->run = (self->exchange.is ? runner->exchanging->begin : runner->begin)(self->simulation,
-                                                                                self->told, error);
+    find_inputs(self, true, self->inputs);
+    if (lacks_inputs(self, self->inputs, true))
+        memcpy(self->inputs, self->part.start, sizeof self->inputs);
+    self->run = (self->exchange.is ? runner->exchanging->begin
+                                   : runner->begin)(self->simulation, self->inputs, error);
     if (!self->run)
         return error->status;
-    keep_told(self);
-    self->told_at = runner->time(self->run);
-    self->ahead = isnan(self->start) ? 0 : self->start - self->told_at;
+    keep_inputs(self);
+    self->inputs_at = runner->time(self->run);
+    self->ahead = isnan(self->start) ? 0 : self->start - self->inputs_at;
     take_place(self);
-    self->told_set = false;
+    self->inputs_set = false;
     if (number_of(self, FMU_WAIT, 0) != 0 && runner->ignite(self->run, INFINITY, NULL))
         status = ld_fail(error, LD_ERR_INPUT,
                          "ignition_by_input requires a rocket that is not ignited at the start: "
@@ -329,7 +330,7 @@ static ld_status check_exchange(const fmu_instance *self, ld_error *error)
 {
     if (!self->variables.runner->exchanging)
         return ld_fail(error, LD_ERR_MISSING, "this FMU supports co-simulation");
-    return launch_outside_check(self->simulation, error);
+    return launch_exchange_check(self->simulation, error);
 }
 
 fmu_instance *fmu_instance_new(const char *resources, const char *token, bool exchange,
@@ -359,7 +360,7 @@ fmu_instance *fmu_instance_new(const char *resources, const char *token, bool ex
 // Run, simulation and all that was set.
 static void forget(fmu_instance *self)
 {
-    unbuild(self);
+    release_model(self);
     for (size_t i = 0; self->text && i < self->variables.count; i++)
         free(self->text[i]);
     free(self->number);
@@ -394,7 +395,7 @@ ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
     set_nothing(self);
     self->tolerance = 0;
     self->start = NAN;
-    self->going = self->told_set = self->lit = false;
+    self->going = self->inputs_set = self->lit = false;
     self->exchange.continuous = self->exchange.moved = false;
     end_run(self);
     return build(self, error);
@@ -448,7 +449,7 @@ static ld_status exchanged(fmu_instance *self, const fmu_variable *variable, dou
     double all[LD_MAX_STATES];
     ld_status status = LD_OK;
     if (variable->group == FMU_STATE)
-        launch_outside_get(self->run, all);
+        launch_exchange_get(self->run, all);
     else if (variable->group == FMU_RATE)
         status = fmu_rates(self, all, error);
     else
@@ -495,7 +496,7 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
 {
     const fmu_runner *runner = self->variables.runner;
     ld_status status = fmu_begin(self, error);
-    if (!status && self->told_set && !self->exchange.is)
+    if (!status && self->inputs_set && !self->exchange.is)
         status = tell(self, error);
     if (!status)
         status = fmu_place(self, error);
@@ -505,15 +506,15 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
     case FMU_TIME:
         *value = runner->time(self->run) + self->ahead;
         return LD_OK;
-    case FMU_TELLS:
-        if (!self->known.tells)
-            status = runner->tells(self->run, self->tells, error);
-        self->known.tells = !status;
-        *value = self->tells[variable->index];
+    case FMU_PART_OUTPUT:
+        if (!self->known.outputs)
+            status = runner->get_outputs(self->run, self->outputs, error);
+        self->known.outputs = !status;
+        *value = self->outputs[variable->index];
         return status;
     case FMU_COLUMN:
         if (!self->known.row)
-            status = runner->row(self->run, self->row, error);
+            status = runner->get_row(self->run, self->row, error);
         self->known.row = !status;
         *value = self->row[variable->index];
         return status;
@@ -565,8 +566,8 @@ static ld_status take_change(fmu_instance *self, const fmu_variable *variable, u
         return ld_fail(error, LD_ERR_INPUT, "%s is fixed once the run has begun", variable->name);
     if (!self->going)
         end_run(self);
-    self->told_set |= variable->group == FMU_TOLD;
-    self->exchange.moved |= variable->group == FMU_TOLD;
+    self->inputs_set |= variable->group == FMU_PART_INPUT;
+    self->exchange.moved |= variable->group == FMU_PART_INPUT;
     self->changed[reference] = true;
     return LD_OK;
 }
@@ -612,21 +613,21 @@ ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text,
 static ld_status tell(fmu_instance *self, ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
-    double told[FMU_MOST_NUMBERS], now = runner->time(self->run);
-    find_told(self, false, told);
-    self->told_set = false;
-    if (is_untold(self, told, false))
+    double inputs[FMU_MOST_NUMBERS], now = runner->time(self->run);
+    find_inputs(self, false, inputs);
+    self->inputs_set = false;
+    if (lacks_inputs(self, inputs, false))
         return LD_OK;
-    if (now == self->told_at &&
-        memcmp((const char *)told, (const char *)self->told, sizeof told) == 0)
+    if (now == self->inputs_at &&
+        memcmp((const char *)inputs, (const char *)self->inputs, sizeof inputs) == 0)
         return LD_OK;
-    memcpy(self->told, told, sizeof told);
-    self->told_at = now;
+    memcpy(self->inputs, inputs, sizeof inputs);
+    self->inputs_at = now;
     fmu_forget_outputs(self);
-    return runner->tell(self->run, told, error);
+    return runner->set_inputs(self->run, inputs, error);
 }
 
-ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error)
+ld_status fmu_ignite(fmu_instance *self, bool *lit, ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
     bool is = number_of(self, FMU_IGNITE, 0) != 0, was = self->lit;
@@ -638,12 +639,12 @@ ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error)
     return runner->ignite(self->run, runner->time(self->run), error);
 }
 
-// Tells the run what was set since the last step.
+// Passes to the run what was set since the last step.
 static ld_status apply_inputs(fmu_instance *self, ld_error *error)
 {
     bool lit;
-    ld_status status = self->told_set ? tell(self, error) : LD_OK;
-    return status ? status : fmu_light(self, &lit, error);
+    ld_status status = self->inputs_set ? tell(self, error) : LD_OK;
+    return status ? status : fmu_ignite(self, &lit, error);
 }
 
 ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events, fmu_step *step,
@@ -708,9 +709,9 @@ static void archive_head(fmu_instance *self, archive *state, int64_t *run_size)
     archive_double(state, &self->start);
     archive_double(state, &self->ahead);
     archive_bool(state, &self->going);
-    archive_bool(state, &self->told_set);
-    archive_doubles(state, self->told, FMU_MOST_NUMBERS);
-    archive_double(state, &self->told_at);
+    archive_bool(state, &self->inputs_set);
+    archive_doubles(state, self->inputs, FMU_MOST_NUMBERS);
+    archive_double(state, &self->inputs_at);
     archive_bool(state, &self->lit);
     archive_expect(state, self->exchange.is);
     archive_bool(state, &self->exchange.continuous);

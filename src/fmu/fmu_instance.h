@@ -1,6 +1,6 @@
 // One instance of an FMU, whatever the version of the interface around it (fmi2.c, fmi3.c): a
-// scenario in its folder of resources, whose numbers are set and told by value reference, and a run
-// of it that is stepped, or whose steps the importer takes (fmu_exchange.h).
+// scenario in its folder of resources, whose numbers are set and reported by value reference, and a
+// run of it that is stepped, or whose steps the importer takes (fmu_exchange.h).
 #ifndef LD_FMU_FMU_INSTANCE_H
 #define LD_FMU_FMU_INSTANCE_H
 

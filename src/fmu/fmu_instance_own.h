@@ -3,14 +3,14 @@
 #define LD_FMU_FMU_INSTANCE_OWN_H
 
 #include "fmu/fmu_variables.h"
-#include "launch/launch_outside.h"
+#include "launch/launch_exchange.h"
 #include "model/fields/source.h"
 
 // Where an importer that takes the steps is.
 typedef struct fmu_exchange {
     bool is;         // the instance is one for model exchange
     bool continuous; // it is in continuous-time mode, not in event mode
-    bool moved;      // the run has not been told what follows, or the base
+    bool moved;      // the run has not received what follows, or the base
     double t;        // [s] on the importer's clock
     double x[LD_MAX_STATES];
 } fmu_exchange;
@@ -25,7 +25,7 @@ struct fmu_instance {
     double *number; // NaN of what is calculated
     char **text;    // NULL: as at the start
     bool *changed;
-    double tolerance; // that the importer wants; 0: the scenario's
+    double tolerance; // that the importer requires; 0: the scenario's
     double start;     // [s] on the importer's clock; NaN: that of the run
 
     ld_model *model;
@@ -33,15 +33,15 @@ struct fmu_instance {
     uint64_t built_with; // digest of the parameters that these have
     void *run;           // of variables.runner; NULL: not begun with what was set
     bool going;
-    double ahead;                  // [s] of the importer's clock against the run's
-    bool told_set;                 // since the last step
-    double told[FMU_MOST_NUMBERS]; // what the run was told last, and when
-    double told_at;                // [s] on the run's clock
-    bool lit;                      // the input of the last step
+    double ahead;                    // [s] of the importer's clock against the run's
+    bool inputs_set;                 // since the last step
+    double inputs[FMU_MOST_NUMBERS]; // what the run received last, and when
+    double inputs_at;                // [s] on the run's clock
+    bool lit;                        // the input of the last step
     // outputs at the present, by index, where they have been asked for (`known`)
-    double *row, *result, tells[FMU_MOST_NUMBERS];
+    double *row, *result, outputs[FMU_MOST_NUMBERS];
     struct {
-        bool row, result, tells;
+        bool row, result, outputs;
     } known;
 
     fmu_exchange exchange; // of an instance for model exchange
@@ -52,8 +52,8 @@ typedef struct fmu_instance fmu_instance;
 // The present is another one: no output is known.
 void fmu_forget_outputs(fmu_instance *self);
 
-// Lights the rocket where the input has become true since the last step; then `*lit` becomes true.
-ld_status fmu_light(fmu_instance *self, bool *lit, ld_error *error);
+// Ignites the rocket where the input has become true since the last step; then `*lit` becomes true.
+ld_status fmu_ignite(fmu_instance *self, bool *lit, ld_error *error);
 
 // The run is where an importer is that takes the steps: time, states and inputs.
 ld_status fmu_place(fmu_instance *self, ld_error *error);

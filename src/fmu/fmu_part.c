@@ -20,10 +20,10 @@ const char *fmu_part_name(ld_fmu_part which)
 void fmu_part_take(ld_fmu_part which, ld_model *model)
 {
     if (which == LD_FMU_LAUNCHER)
-        model_tell_base(model);
+        model_make_base_external(model);
 }
 
-// A base that is told rests at the origin, its tube along x, until it is told otherwise.
+// An externally driven base rests at the origin, its tube along x, until it receives another.
 static void stand_at_origin(fmu_part *part)
 {
     memset(part->start, 0, sizeof part->start);
@@ -39,16 +39,16 @@ static ld_status stand_on_vehicle(const ld_simulation *whole, fmu_part *part, ld
     void *run = fmu_vehicle.begin(whole, wrench, error);
     if (!run)
         return error->status;
-    ld_status status = fmu_vehicle.tells(run, part->start, error);
+    ld_status status = fmu_vehicle.get_outputs(run, part->start, error);
     fmu_vehicle.end(run);
     return status;
 }
 
 const fmu_runner *fmu_part_runner(ld_fmu_part which, const ld_model *model)
 {
-    return which == LD_FMU_VEHICLE     ? &fmu_vehicle
-           : model_base_is_told(model) ? &fmu_launch_outside
-                                       : &fmu_launch;
+    return which == LD_FMU_VEHICLE         ? &fmu_vehicle
+           : model_base_is_external(model) ? &fmu_launch_external
+                                           : &fmu_launch;
 }
 
 ld_status fmu_part_find(ld_fmu_part which, const ld_simulation *whole, fmu_part *part,

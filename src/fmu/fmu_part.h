@@ -1,5 +1,5 @@
 // Which part of a launch an FMU is: all of it, the vehicle alone, or the launcher alone, whose base
-// is then told.
+// is then reported.
 #ifndef LD_FMU_FMU_PART_H
 #define LD_FMU_FMU_PART_H
 
@@ -11,7 +11,7 @@
 typedef struct fmu_part {
     ld_fmu_part which;
     double
-        start[FMU_MOST_NUMBERS]; // what it is told until it is told otherwise; NaN: what it finds
+        start[FMU_MOST_NUMBERS]; // what it receives until it receives another; NaN: what it finds
 } fmu_part;
 
 // A part of the model that `whole` simulates, as it begins. LD_ERR_INPUT where it has no such part,

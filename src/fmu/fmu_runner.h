@@ -1,5 +1,5 @@
-// What an instance of an FMU runs over the simulation of its scenario, whatever it is: begun, told,
-// taken forward, asked, saved, loaded.
+// What an instance of an FMU runs over the simulation of its scenario, whatever it is: begun, given
+// inputs, taken forward, asked, saved, loaded.
 #ifndef LD_FMU_FMU_RUNNER_H
 #define LD_FMU_FMU_RUNNER_H
 
@@ -16,26 +16,26 @@ enum {
 
 // Functions return what the library's do.
 typedef struct fmu_runner {
-    int told_count;  // numbers that it is told by another FMU: a frame's, or none
-    int tells_count; // that it tells another one: a wrench's
-    bool follows;    // outputs follow what it is told at once, not by its states alone
+    int input_count;  // numbers that it receives from another FMU: a frame's, or none
+    int output_count; // that it sends to another one: a wrench's
+    bool follows;     // outputs follow what it receives at once, not by its states alone
 
     // Columns of its rows; the first one is the time.
     size_t (*columns)(const ld_simulation *simulation, const ld_column **columns);
     // NULL after a failure. `told` holds at the start; a number in it that is NaN becomes what it
-    // is then by itself.
-    void *(*begin)(const ld_simulation *simulation, double *told, ld_error *error);
+    // is then on its own.
+    void *(*begin)(const ld_simulation *simulation, double *inputs, ld_error *error);
     void (*end)(void *run);
     double (*time)(const void *run); // [s] on its own clock
     bool (*is_finished)(const void *run);
 
-    // At the present: what it is told; the waiting rocket lit at t (infinity: not until then; NULL:
-    // it has none).
-    ld_status (*tell)(void *run, const double *told, ld_error *error);
+    // At the present: what it receives; the waiting rocket ignited at t (infinity: not until then;
+    // NULL: it has none).
+    ld_status (*set_inputs)(void *run, const double *inputs, ld_error *error);
     ld_status (*ignite)(void *run, double t, ld_error *error);
 
-    ld_status (*tells)(void *run, double *numbers, ld_error *error);
-    ld_status (*row)(void *run, double *values, ld_error *error);
+    ld_status (*get_outputs)(void *run, double *numbers, ld_error *error);
+    ld_status (*get_row)(void *run, double *values, ld_error *error);
     const ld_summary *(*summary)(const void *run); // so far; NULL: it has none
 
     // To time t [s]; or to the next event that an importer wants to hear of, where one comes
@@ -47,18 +47,19 @@ typedef struct fmu_runner {
     ld_status (*save)(void *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
 
-    // Model exchange, of what is an ld_run, by launch/launch_outside.h; NULL: there is none.
+    // Model exchange, of what is an ld_run, by launch/launch_exchange.h; NULL: there is none.
     const struct fmu_exchanging *exchanging;
 } fmu_runner;
 
 // As those above, of a run whose steps an importer takes; then where it is.
 typedef struct fmu_exchanging {
-    void *(*begin)(const ld_simulation *simulation, double *told, ld_error *error);
+    void *(*begin)(const ld_simulation *simulation, double *inputs, ld_error *error);
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
-    ld_status (*place)(void *run, double t, const double *x, const double *told, ld_error *error);
+    ld_status (*set_state)(void *run, double t, const double *x, const double *inputs,
+                           ld_error *error);
 } fmu_exchanging;
 
-// A launch on a base that goes by itself, and on one that is told where it is; a vehicle alone.
-extern const fmu_runner fmu_launch, fmu_launch_outside, fmu_vehicle;
+// A launch on a base that continues its own, and on an externally driven one; a vehicle alone.
+extern const fmu_runner fmu_launch, fmu_launch_external, fmu_vehicle;
 
 #endif

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launch/launch_outside.h"
-#include "launch/launch_outside_names.h"
+#include "launch/launch_exchange.h"
+#include "launch/launch_exchange_names.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
@@ -45,7 +45,7 @@ bool fmu_is_text(const fmu_variable *variable)
 
 bool fmu_is_input(const fmu_variable *variable)
 {
-    return variable->group == FMU_TOLD || variable->group == FMU_IGNITE;
+    return variable->group == FMU_PART_INPUT || variable->group == FMU_IGNITE;
 }
 
 bool fmu_is_parameter(const fmu_variable *variable)
@@ -55,7 +55,7 @@ bool fmu_is_parameter(const fmu_variable *variable)
 
 bool fmu_is_output(const fmu_variable *variable)
 {
-    return variable->group >= FMU_TELLS && !fmu_is_local(variable);
+    return variable->group >= FMU_PART_OUTPUT && !fmu_is_local(variable);
 }
 
 bool fmu_is_local(const fmu_variable *variable)
@@ -140,7 +140,7 @@ static void begin_group(gathering *self)
     self->index = 0;
 }
 
-// Groups of the numbers that FMUs tell each other, and what they are.
+// Groups of the numbers that FMUs exchange, and what they are.
 typedef struct exchanged {
     const char *name, *unit, *description;
     int count; // 3: x, y, z; 4: 0 to 3
@@ -178,7 +178,7 @@ static void add_frame(gathering *self, fmu_group group, const char *prefix, cons
     enum { PARTS = sizeof frame_parts / sizeof *frame_parts, QUATERNION = 1 };
     exchanged part[PARTS];
     memcpy(part, frame_parts, sizeof part);
-    if (group == FMU_TOLD)
+    if (group == FMU_PART_INPUT)
         part[QUATERNION].description = "Axes of the undeformed tube against I, scalar first; all "
                                        "zero: not reported yet, the frame continues as it began";
     add_exchanged(self, group, prefix, part, PARTS, start);
@@ -245,11 +245,11 @@ static void add_states(gathering *self, const ld_run *run)
 {
     double nominal[LD_MAX_STATES];
     char name[NAME_SIZE];
-    int count = launch_outside_states(run);
-    launch_outside_nominals(run, nominal);
+    int count = launch_exchange_states(run);
+    launch_exchange_nominals(run, nominal);
     begin_group(self);
     for (int i = 0; i < count && !self->full; i++) {
-        const outside_quantity state = launch_outside_state(run, i);
+        const exchange_quantity state = launch_exchange_state(run, i);
         snprintf(name, sizeof name, "state.%s", state.name);
         add(self, FMU_STATE, name, state.unit, state.description, NAN, NULL);
         if (!self->full)
@@ -257,13 +257,13 @@ static void add_states(gathering *self, const ld_run *run)
     }
     begin_group(self);
     for (int i = 0; i < count; i++) {
-        const outside_quantity state = launch_outside_state(run, i);
+        const exchange_quantity state = launch_exchange_state(run, i);
         snprintf(name, sizeof name, "der(state.%s)", state.name);
         add(self, FMU_RATE, name, state.rate_unit, "Its rate", NAN, NULL);
     }
     begin_group(self);
-    for (int i = 0; i < launch_outside_indicators(run); i++) {
-        const outside_quantity indicator = launch_outside_indicator(run, i);
+    for (int i = 0; i < launch_exchange_indicators(run); i++) {
+        const exchange_quantity indicator = launch_exchange_indicator(run, i);
         snprintf(name, sizeof name, "indicator.%s", indicator.name);
         add(self, FMU_INDICATOR, name, indicator.unit, indicator.description, NAN, NULL);
     }
@@ -306,20 +306,20 @@ static void add_columns(gathering *self, const ld_simulation *simulation)
             self->index++;
 }
 
-static void add_told(gathering *self, const double *start)
+static void add_inputs(gathering *self, const double *start)
 {
     if (self->into->runner == &fmu_vehicle)
-        add_wrench(self, FMU_TOLD, "input.wrench", start);
-    else if (self->into->runner->told_count > 0)
-        add_frame(self, FMU_TOLD, "input.base", start);
+        add_wrench(self, FMU_PART_INPUT, "input.wrench", start);
+    else if (self->into->runner->input_count > 0)
+        add_frame(self, FMU_PART_INPUT, "input.base", start);
 }
 
-static void add_tells(gathering *self)
+static void add_outputs(gathering *self)
 {
     if (self->into->runner == &fmu_vehicle)
-        add_frame(self, FMU_TELLS, "base", NULL);
+        add_frame(self, FMU_PART_OUTPUT, "base", NULL);
     else
-        add_wrench(self, FMU_TELLS, "wrench", NULL);
+        add_wrench(self, FMU_PART_OUTPUT, "wrench", NULL);
 }
 
 static void add_ignition(gathering *self)
@@ -340,23 +340,23 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
     const fmu_runner *runner = fmu_part_runner(part->which, model);
     *self = (fmu_variables){.runner = runner, .stop = NAN};
     gathering all = {.into = self, .model = model};
-    double told[FMU_MOST_NUMBERS];
+    double inputs[FMU_MOST_NUMBERS];
     if (!ld_model_has_launcher(model))
         return ld_fail(error, LD_ERR_INPUT, "a scenario of flight only has no launcher to step");
-    memcpy(told, part->start, sizeof told);
-    void *run = runner->begin(simulation, told, error);
+    memcpy(inputs, part->start, sizeof inputs);
+    void *run = runner->begin(simulation, inputs, error);
     if (!run)
         return error->status;
     self->start = runner->time(run);
     add(&all, FMU_TIME, "time", "s", "Time", NAN, NULL);
-    add_told(&all, told);
+    add_inputs(&all, inputs);
     add_ignition(&all);
     add_keys(&all);
-    add_tells(&all);
+    add_outputs(&all);
     add_columns(&all, simulation);
     if (runner->summary)
         add_results(&all, runner->summary(run));
-    self->exchange = runner->exchanging && !launch_outside_check(simulation, error);
+    self->exchange = runner->exchanging && !launch_exchange_check(simulation, error);
     if (self->exchange)
         add_states(&all, run);
     runner->end(run);

@@ -10,16 +10,16 @@
 
 // In the order in which they are counted.
 typedef enum fmu_group {
-    FMU_TIME,   // independent
-    FMU_TOLD,   // inputs: what it is told by another FMU (fmu_runner.h)
-    FMU_IGNITE, // input: becomes true, and the waiting rocket is lit
-    FMU_WAIT,   // parameter: no rocket is lit but by the input
-    FMU_NUMBER, // parameters: keys of the scenario
+    FMU_TIME,       // independent
+    FMU_PART_INPUT, // inputs: what it receives from another FMU (fmu_runner.h)
+    FMU_IGNITE,     // input: becomes true, and the waiting rocket is ignited
+    FMU_WAIT,       // parameter: no rocket is ignited but by the input
+    FMU_NUMBER,     // parameters: keys of the scenario
     FMU_TEXT,
-    FMU_TELLS,  // outputs: what it tells another FMU
-    FMU_COLUMN, // columns of the history
-    FMU_RESULT, // numbers of the rockets' summary, NaN until they are known
-    FMU_STATE,  // of model exchange: the continuous states, their rates in the same order
+    FMU_PART_OUTPUT, // outputs: what it sends to another FMU
+    FMU_COLUMN,      // columns of the history
+    FMU_RESULT,      // numbers of the rockets' summary, NaN until they are known
+    FMU_STATE,       // of model exchange: the continuous states, their rates in the same order
     FMU_RATE,
     FMU_INDICATOR, // what goes through zero at events
 } fmu_group;

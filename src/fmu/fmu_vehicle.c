@@ -5,16 +5,16 @@
 #include "fmu/fmu_runner.h"
 #include "launchdyn/vehicle_run.h"
 
-static ld_status tell(void *run, const double *told, ld_error *error)
+static ld_status set_inputs(void *run, const double *inputs, ld_error *error)
 {
     ld_base_wrench wrench;
-    memcpy(wrench.force, told, sizeof wrench.force);
-    memcpy(wrench.moment, told + 3, sizeof wrench.moment);
-    return ld_vehicle_run_tell_wrench(run, &wrench, error);
+    memcpy(wrench.force, inputs, sizeof wrench.force);
+    memcpy(wrench.moment, inputs + 3, sizeof wrench.moment);
+    return ld_vehicle_run_set_wrench(run, &wrench, error);
 }
 
-// What nobody tells of the wrench at the start is that under which the vehicle rests.
-static void *begin(const ld_simulation *simulation, double *told, ld_error *error)
+// What is not given of the wrench at the start is that under which the vehicle rests.
+static void *begin(const ld_simulation *simulation, double *inputs, ld_error *error)
 {
     ld_vehicle_run *run;
     ld_base_wrench own;
@@ -23,12 +23,12 @@ static void *begin(const ld_simulation *simulation, double *told, ld_error *erro
         return NULL;
     ld_status status = ld_vehicle_run_wrench(run, &own, error);
     for (int i = 0; i < FMU_WRENCH_NUMBERS; i++)
-        if (isnan(told[i]))
-            told[i] = i < 3 ? own.force[i] : own.moment[i - 3];
+        if (isnan(inputs[i]))
+            inputs[i] = i < 3 ? own.force[i] : own.moment[i - 3];
         else
             given = true;
     if (!status && given)
-        status = tell(run, told, error);
+        status = set_inputs(run, inputs, error);
     if (!status)
         return run;
     ld_vehicle_run_end(run);
@@ -51,7 +51,7 @@ static bool is_finished(const void *run)
     return false;
 }
 
-static ld_status tells(void *run, double *numbers, ld_error *error)
+static ld_status get_outputs(void *run, double *numbers, ld_error *error)
 {
     ld_base_frame frame;
     ld_status status = ld_vehicle_run_frame(run, &frame, error);
@@ -64,7 +64,7 @@ static ld_status tells(void *run, double *numbers, ld_error *error)
     return LD_OK;
 }
 
-static ld_status row(void *run, double *values, ld_error *error)
+static ld_status get_row(void *run, double *values, ld_error *error)
 {
     return ld_vehicle_run_row(run, values, error);
 }
@@ -94,16 +94,16 @@ static void *load(const ld_simulation *simulation, const void *bytes, size_t siz
 }
 
 const fmu_runner fmu_vehicle = {
-    .told_count = FMU_WRENCH_NUMBERS,
-    .tells_count = FMU_FRAME_NUMBERS,
+    .input_count = FMU_WRENCH_NUMBERS,
+    .output_count = FMU_FRAME_NUMBERS,
     .columns = ld_vehicle_run_columns,
     .begin = begin,
     .end = end,
     .time = time_of,
     .is_finished = is_finished,
-    .tell = tell,
-    .tells = tells,
-    .row = row,
+    .set_inputs = set_inputs,
+    .get_outputs = get_outputs,
+    .get_row = get_row,
     .advance = advance,
     .advance_to_event = advance_to_event,
     .save = save,

@@ -15,7 +15,7 @@ struct package {
 };
 
 // Keeps the first failure.
-static void note(package *self, bool fine)
+static void keep_failure(package *self, bool fine)
 {
     if (fine || self->failed)
         return;
@@ -36,7 +36,7 @@ void package_put(package *self, const char *name, const void *bytes, size_t size
         result = zipWriteInFileInZip(self->zip, bytes, (unsigned)size);
     if (result == ZIP_OK)
         result = zipCloseFileInZip(self->zip);
-    note(self, result == ZIP_OK);
+    keep_failure(self, result == ZIP_OK);
 }
 
 static ld_status write_zip(const part_file *part, void put_all(package *self, const void *data),
@@ -44,11 +44,11 @@ static ld_status write_zip(const part_file *part, void put_all(package *self, co
 {
     package self = {0};
     self.zip = zipOpen64(part->path, APPEND_STATUS_CREATE);
-    note(&self, self.zip != NULL);
+    keep_failure(&self, self.zip != NULL);
     if (self.zip) {
         put_all(&self, data);
         errno = 0;
-        note(&self, zipClose(self.zip, NULL) == ZIP_OK);
+        keep_failure(&self, zipClose(self.zip, NULL) == ZIP_OK);
     }
     if (self.failed && self.number == 0)
         return ld_fail(error, LD_ERR_FILE, "cannot write %.400s: the package cannot be closed",

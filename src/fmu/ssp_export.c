@@ -31,7 +31,7 @@ typedef struct system_structure {
 
 // ---- SystemStructure.ssd ----
 
-// What one part tells is an output, what it is told an input.
+// What one part reports is an output, what it receives an input.
 static void write_component(FILE *stream, const system_structure *self, int k)
 {
     const char *name = fmu_part_name(parts[k]);
@@ -60,16 +60,16 @@ static const char *name_of(const fmu_variables *variables, fmu_group group, int 
     return NULL;
 }
 
-// What part k tells, the other one is told.
+// What part k reports, the other one receives.
 static void write_connections(FILE *stream, const system_structure *self, int k)
 {
     const fmu_variables *from = &self->variables[k], *to = &self->variables[1 - k];
-    for (int i = 0; i < from->runner->tells_count; i++)
+    for (int i = 0; i < from->runner->output_count; i++)
         fprintf(stream,
                 "      <ssd:Connection startElement=\"%s\" startConnector=\"%s\" "
                 "endElement=\"%s\" endConnector=\"%s\"/>\n",
-                fmu_part_name(parts[k]), name_of(from, FMU_TELLS, i), fmu_part_name(parts[1 - k]),
-                name_of(to, FMU_TOLD, i));
+                fmu_part_name(parts[k]), name_of(from, FMU_PART_OUTPUT, i),
+                fmu_part_name(parts[1 - k]), name_of(to, FMU_PART_INPUT, i));
 }
 
 static void write_structure(FILE *stream, const system_structure *self)

@@ -30,7 +30,7 @@ static const char *const causality_names[FOREIGN_CAUSALITIES] = {
 static const char *const variability_names[FOREIGN_VARIABILITIES] = {"constant", "fixed", "tunable",
                                                                      "discrete", "continuous"};
 
-// A declared type: all that is wanted of it is its unit.
+// A declared type: all that is requested of it is its unit.
 typedef struct declared_type {
     char *name, *unit;
 } declared_type;
@@ -464,7 +464,7 @@ static void find_unit(const description_reader *self, foreign_variable *variable
     variable->unit = unit_named(self->of, name);
 }
 
-// Its elements; 0: there is no such structural parameter, or it is no number of elements.
+// Its elements; 0: there is no such structural parameter, or it is not a number of elements.
 static double dimension_size(const foreign_description *of, const array_dimension *dimension)
 {
     if (!dimension->by_parameter)

@@ -66,7 +66,7 @@ typedef struct foreign_variable {
     foreign_type type;
     foreign_causality causality;
     foreign_variability variability;
-    uint32_t elements; // of an array, as its dimensions' start values tell; 0: it is none
+    uint32_t elements; // of an array, as its dimensions' start values say; 0: it is none
     bool has_start;
     double start;             // of a number, where it is there
     char *declared;           // name of its type, or NULL

@@ -82,7 +82,7 @@ static ld_status check_machine(const foreign_package *self, const char *library,
                    machine_name(THIS_MACHINE));
 }
 
-static ld_status look_at(foreign_package *self, ld_error *error)
+static ld_status read_package(foreign_package *self, ld_error *error)
 {
     char path[FOREIGN_LONGEST_PATH];
     snprintf(path, sizeof path, "%s/modelDescription.xml", self->folder);
@@ -112,7 +112,7 @@ ld_status foreign_open(const char *path, foreign_package **out, ld_error *error)
     }
     ld_status status = make_folder(self, error);
     if (!status)
-        status = look_at(self, error);
+        status = read_package(self, error);
     if (!status)
         return LD_OK;
     foreign_close(self);
@@ -135,8 +135,8 @@ void foreign_close(foreign_package *self)
 // ---- instances
 
 // Asks for something with a body and an answer of known sizes.
-static ld_status ask(foreign_instance *self, foreign_kind kind, double t, const void *body,
-                     size_t size, void *answer, size_t expected, ld_error *error)
+static ld_status ask_process(foreign_instance *self, foreign_kind kind, double t, const void *body,
+                             size_t size, void *answer, size_t expected, ld_error *error)
 {
     size_t got;
     ld_status status = foreign_process_ask(self->process, kind, t, body, size, NULL, 0, answer,
@@ -162,7 +162,8 @@ static ld_status instantiate(foreign_instance *self, ld_error *error)
              self->package->folder, of->version == 3 ? "/" : "");
     snprintf(opening->token, sizeof opening->token, "%s", of->token);
     snprintf(opening->identifier, sizeof opening->identifier, "%s", of->identifier);
-    ld_status status = ask(self, FOREIGN_OPEN, NAN, opening, sizeof *opening, NULL, 0, error);
+    ld_status status =
+        ask_process(self, FOREIGN_OPEN, NAN, opening, sizeof *opening, NULL, 0, error);
     free(opening);
     return status;
 }
@@ -194,7 +195,7 @@ void foreign_end(foreign_instance *self)
 ld_status foreign_set(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       ld_error *error)
 {
-    return ask(self, FOREIGN_SET, t, values, count * sizeof *values, NULL, 0, error);
+    return ask_process(self, FOREIGN_SET, t, values, count * sizeof *values, NULL, 0, error);
 }
 
 ld_status foreign_set_text(foreign_instance *self, double t, uint32_t reference, const char *text,
@@ -208,18 +209,18 @@ ld_status foreign_set_text(foreign_instance *self, double t, uint32_t reference,
 ld_status foreign_get(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       double *numbers, ld_error *error)
 {
-    return ask(self, FOREIGN_GET, t, values, count * sizeof *values, numbers,
-               count * sizeof *numbers, error);
+    return ask_process(self, FOREIGN_GET, t, values, count * sizeof *values, numbers,
+                       count * sizeof *numbers, error);
 }
 
 ld_status foreign_enter(foreign_instance *self, double t, double start, ld_error *error)
 {
-    return ask(self, FOREIGN_ENTER, t, &start, sizeof start, NULL, 0, error);
+    return ask_process(self, FOREIGN_ENTER, t, &start, sizeof start, NULL, 0, error);
 }
 
 ld_status foreign_leave(foreign_instance *self, double t, ld_error *error)
 {
-    return ask(self, FOREIGN_LEAVE, t, NULL, 0, NULL, 0, error);
+    return ask_process(self, FOREIGN_LEAVE, t, NULL, 0, NULL, 0, error);
 }
 
 ld_status foreign_step(foreign_instance *self, double t, const foreign_stepping *step,

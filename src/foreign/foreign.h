@@ -38,7 +38,7 @@ ld_status foreign_get(foreign_instance *self, double t, const foreign_value *val
 ld_status foreign_enter(foreign_instance *self, double t, double start, ld_error *error);
 ld_status foreign_leave(foreign_instance *self, double t, ld_error *error);
 // Sets the inputs and steps from `step->t` of its own clock by `step->size`; a step that it breaks
-// off goes on from there, and from its start in halves where it keeps its state. Then gets the
+// off continues from there, and from its start in halves where it keeps its state. Then gets the
 // outputs. `values`: inputs, then outputs. `pieces`: that it took the step in.
 ld_status foreign_step(foreign_instance *self, double t, const foreign_stepping *step,
                        const foreign_value *values, double *numbers, int *pieces, ld_error *error);

@@ -84,8 +84,8 @@ static int spawn(foreign_process *self, int host, int socket, int shared)
     return wrong;
 }
 
-// A descriptor beyond those that the child wants in their places.
-static int beyond(int file)
+// A descriptor beyond those that the child requires in their places.
+static int descriptor_beyond(int file)
 {
     int moved = file >= 0 ? fcntl(file, F_DUPFD_CLOEXEC, 10) : -1;
     if (file >= 0)
@@ -96,10 +96,11 @@ static int beyond(int file)
 static bool start(foreign_process *self)
 {
     int pair[2] = {-1, -1};
-    int host = beyond(host_file()), shared = beyond(memfd_create("launchdyn-fmu", MFD_CLOEXEC));
+    int host = descriptor_beyond(host_file()),
+        shared = descriptor_beyond(memfd_create("launchdyn-fmu", MFD_CLOEXEC));
     bool good = host >= 0 && shared >= 0 && ftruncate(shared, sizeof *self->shared) == 0 &&
                 socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0;
-    pair[1] = beyond(pair[1]);
+    pair[1] = descriptor_beyond(pair[1]);
     self->socket = pair[0];
     void *memory = MAP_FAILED;
     if (good)
@@ -141,7 +142,7 @@ ld_status foreign_process_start(const char *name, double limit, foreign_process 
 // ---- what went wrong
 
 // " in FUNCTION at t = T s"
-static const char *where(const foreign_process *self, double t, char text[128])
+static const char *place_text(const foreign_process *self, double t, char text[128])
 {
     char function[sizeof self->shared->function];
     memcpy(function, self->shared->function, sizeof function);
@@ -153,7 +154,7 @@ static const char *where(const foreign_process *self, double t, char text[128])
 }
 
 // ": what it said last", or nothing.
-static const char *said(const foreign_process *self, char text[FOREIGN_LONGEST_SAID + 4])
+static const char *last_words(const foreign_process *self, char text[FOREIGN_LONGEST_SAID + 4])
 {
     char message[FOREIGN_LONGEST_SAID];
     memcpy(message, self->shared->said, sizeof message);
@@ -198,13 +199,13 @@ static bool wait_for_end(foreign_process *self, int *status)
     return true;
 }
 
-static ld_status died(foreign_process *self, double t, ld_error *error)
+static ld_status fail_ended(foreign_process *self, double t, ld_error *error)
 {
     char at[128], last[FOREIGN_LONGEST_SAID + 4];
     int status = 0;
     bool known = wait_for_end(self, &status);
-    where(self, t, at);
-    said(self, last);
+    place_text(self, t, at);
+    last_words(self, last);
     if (known && WIFSIGNALED(status))
         return ld_fail(error, LD_ERR_NUMERIC, "%.200s: the FMU ended with signal %d (%s)%s%s",
                        self->name, WTERMSIG(status), strsignal(WTERMSIG(status)), at, last);
@@ -216,19 +217,20 @@ static ld_status died(foreign_process *self, double t, ld_error *error)
                    last);
 }
 
-static ld_status hangs(foreign_process *self, double t, ld_error *error)
+static ld_status fail_timed_out(foreign_process *self, double t, ld_error *error)
 {
     char at[128];
     return ld_fail(error, LD_ERR_NUMERIC,
                    "%.300s: the FMU did not return within %g s%s (base.time_limit)", self->name,
-                   self->limit, where(self, t, at));
+                   self->limit, place_text(self, t, at));
 }
 
-static ld_status refused(foreign_process *self, foreign_result result, double t, ld_error *error)
+static ld_status fail_refused(foreign_process *self, foreign_result result, double t,
+                              ld_error *error)
 {
     char at[128], last[FOREIGN_LONGEST_SAID + 4];
-    where(self, t, at);
-    said(self, last);
+    place_text(self, t, at);
+    last_words(self, last);
     if (result == FOREIGN_MISSING)
         return ld_fail(error, LD_ERR_INPUT, "%.200s: its binary cannot be loaded%s", self->name,
                        last);
@@ -259,7 +261,7 @@ static moved wait_for(const foreign_process *self, short events, double until)
 }
 
 // Whether it is to be tried again; else `count` of bytes have gone, or none ever will.
-static bool again(ssize_t count)
+static bool is_retried(ssize_t count)
 {
     return count < 0 && (errno == EAGAIN || errno == EINTR);
 }
@@ -271,7 +273,7 @@ static moved send_all(const foreign_process *self, const char *bytes, size_t siz
         if (ready != MOVED)
             return ready;
         ssize_t count = send(self->socket, bytes + at, size - at, MSG_NOSIGNAL | MSG_DONTWAIT);
-        if (count <= 0 && !again(count))
+        if (count <= 0 && !is_retried(count))
             return MOVED_NOT;
         at += count > 0 ? (size_t)count : 0;
     }
@@ -285,7 +287,7 @@ static moved receive_all(const foreign_process *self, char *bytes, size_t size, 
         if (ready != MOVED)
             return ready;
         ssize_t count = recv(self->socket, bytes + at, size - at, MSG_DONTWAIT);
-        if (count <= 0 && !again(count))
+        if (count <= 0 && !is_retried(count))
             return MOVED_NOT;
         at += count > 0 ? (size_t)count : 0;
     }
@@ -317,11 +319,11 @@ ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t
     self->lost = result != MOVED || head.result != FOREIGN_DONE || head.size > room;
     *answered = head.size;
     if (result == MOVED_NOT)
-        return died(self, t, error);
+        return fail_ended(self, t, error);
     if (result == MOVED_LATE)
-        return hangs(self, t, error);
+        return fail_timed_out(self, t, error);
     if (head.result != FOREIGN_DONE)
-        return refused(self, (foreign_result)head.result, t, error);
+        return fail_refused(self, (foreign_result)head.result, t, error);
     return self->lost ? ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's state requires %zu bytes",
                                 self->name, head.size)
                       : LD_OK;
@@ -329,7 +331,7 @@ ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t
 
 // ---- end
 
-// The FMU may end by itself, in good time.
+// The FMU may end on its own, in good time.
 static void say_goodbye(foreign_process *self)
 {
     foreign_answer head;

@@ -1,7 +1,7 @@
 // What a process that runs an FMU and the one that asks it say to each other, over a socket: a
 // request, then its answer. Both are of one build on one machine: structs go as they are. Memory
-// that both share tells, whatever has become of the FMU, which of its functions was called last and
-// what it said last.
+// that both share reports, whatever has become of the FMU, which of its functions was called last
+// and what it said last.
 #ifndef LD_FOREIGN_PROTOCOL_H
 #define LD_FOREIGN_PROTOCOL_H
 
@@ -45,7 +45,7 @@ typedef enum foreign_result {
     FOREIGN_REFUSED, // a function answered with an error
     FOREIGN_ENDS,    // the FMU asks for the simulation's end
     FOREIGN_NO_STEP, // it takes no step, however short
-    FOREIGN_MISSING, // `said` tells what cannot be loaded
+    FOREIGN_MISSING, // `said` says what cannot be loaded
     FOREIGN_BAD,     // no such request
 } foreign_result;
 

@@ -35,7 +35,7 @@ static ld_status damaged(const unpacking *self)
                    self->path);
 }
 
-static ld_status refuse(const unpacking *self, const char *name, const char *why)
+static ld_status refuse_entry(const unpacking *self, const char *name, const char *why)
 {
     return ld_fail(self->error, LD_ERR_INPUT, "%.200s: its entry \"%.120s\" %s", self->path, name,
                    why);
@@ -105,8 +105,8 @@ static bool is_wanted(const char *name)
 
 // ---- sizes
 
-// What it says it takes counts, whether it is wanted or not.
-static ld_status count(unpacking *self, const entry *one)
+// What it says it takes counts, whether it is requested or not.
+static ld_status count_size(unpacking *self, const entry *one)
 {
     const uint64_t allowance = 1 << 24; // [byte] small archives may be packed as well as they like
     uint64_t size = one->about.uncompressed_size;
@@ -158,7 +158,7 @@ static ld_status copy_bytes(const unpacking *self, const entry *one, int file)
             status = cannot_write(self, one->name);
         left -= status ? 0 : (uint64_t)length;
     }
-    // its checksum is looked at here
+    // its checksum is checked here
     bool whole = unzCloseCurrentFile(self->zip) == UNZ_OK && left == 0;
     return status || whole ? status : damaged(self);
 }
@@ -168,16 +168,16 @@ static ld_status unpack_file(const unpacking *self, const entry *one)
     char path[LONGEST_PATH];
     int length = snprintf(path, sizeof path, "%s/%s", self->folder, one->name);
     if (length < 0 || length >= LONGEST_PATH)
-        return refuse(self, one->name, "has a name that is too long");
+        return refuse_entry(self, one->name, "has a name that is too long");
     if (!make_way(path, strlen(self->folder) + 1))
-        return errno == ENOTDIR ? refuse(self, one->name, "has a path through a file")
+        return errno == ENOTDIR ? refuse_entry(self, one->name, "has a path through a file")
                                 : cannot_write(self, one->name);
     if (path[length - 1] == '/')
         return LD_OK;
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0700);
     if (file < 0)
-        return errno == EEXIST    ? refuse(self, one->name, "occurs twice")
-               : errno == ENOTDIR ? refuse(self, one->name, "has a path through a file")
+        return errno == EEXIST    ? refuse_entry(self, one->name, "occurs twice")
+               : errno == ENOTDIR ? refuse_entry(self, one->name, "has a path through a file")
                                   : cannot_write(self, one->name);
     ld_status status = copy_bytes(self, one, file);
     if (close(file) && !status)
@@ -193,8 +193,8 @@ static ld_status unpack_entry(unpacking *self)
         return damaged(self);
     const char *why = wrong_entry(&one);
     if (why)
-        return refuse(self, one.name, why);
-    ld_status status = count(self, &one);
+        return refuse_entry(self, one.name, why);
+    ld_status status = count_size(self, &one);
     return status || !is_wanted(one.name) ? status : unpack_file(self, &one);
 }
 

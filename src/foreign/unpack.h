@@ -20,7 +20,7 @@ enum { FOREIGN_MOST_ENTRIES = 20000, FOREIGN_LONGEST_NAME = 512, FOREIGN_MOST_RA
 #define FOREIGN_MOST_BYTES ((uint64_t)1 << 30) // [byte] unpacked
 
 // Unpacks the description, the resources and this machine's binaries of the archive `path` into
-// `folder`, which is there; the names of all else are looked at, too. After a failure, one sentence
+// `folder`, which is there; the names of all else are checked, too. After a failure, one sentence
 // that names the archive, the folder may hold some of it.
 ld_status foreign_unpack(const char *path, const char *folder, ld_error *error);
 

@@ -66,7 +66,7 @@ void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *
 // y at the end of the step of size `size` from y0, with its stages.
 void dormand_prince_stages(dormand_prince_numbers *step, dormand_prince_slopes *f, void *self);
 
-// Takes the last step anew so that it ends at t, within it.
+// Takes the last step again so that it ends at t, within it.
 void dormand_prince_retake(dormand_prince *self, double t);
 
 // State at t within the last step.

@@ -118,7 +118,7 @@ LD_INLINE void judge(double *block, real_condition last)
     grow = real_select(error < (double)INFINITY, grow, real_all(0.3));
     real shrunk = size * real_max(real_all(0.2), real_min(real_all(1), grow));
     real next = size * real_min(OF_STEP(most), real_max(real_all(0.2), grow));
-    // a step cut short by a stop tells nothing against the size before it
+    // a step cut short by a stop says nothing against the size before it
     next = real_select(size < h, real_max(next, h), next);
     OF_STEP(h) = real_select(done, next, real_select(refused, shrunk, h));
     OF_STEP(most) = real_select(refused, real_all(1), OF_STEP(most));

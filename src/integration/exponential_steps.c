@@ -13,7 +13,7 @@ enum { RUNGS = 4 };
 // An error is allowed this share of the tolerance: what the works are found to, which have none of
 // their own.
 static const double SHARE = 0.2;
-// A Jacobian is found anew after so many steps that were shorter than they had been with it, the
+// A Jacobian is found again after so many steps that were shorter than they had been with it, the
 // next time after twice as many: it costs what 100 steps do. A stretch left to explicit steps
 // counts for 40.
 enum { PATIENCE = 200, MOST_PATIENCE = 100 * PATIENCE, STRETCH = 40 };
@@ -206,7 +206,7 @@ static int find_jacobian(exponential_steps *self)
     return exponential_prepare(self->part->steps);
 }
 
-static bool refresh(exponential_steps *self)
+static bool refresh_linear(exponential_steps *self)
 {
     linear_part *part = self->part;
     part->prepared = find_jacobian(self) == 0;
@@ -222,7 +222,7 @@ static double finest(const exponential_steps *self)
     return exponential_size(self->part->steps, RUNGS - 1);
 }
 
-static exponential_outcome refuse(exponential_steps *self, double until)
+static exponential_outcome refuse_step(exponential_steps *self, double until)
 {
     self->resume = until;
     return EXPONENTIAL_REFUSED;
@@ -285,7 +285,7 @@ static void control(exponential_steps *self, int rung, double error)
 }
 
 // Ends the step at t and makes it the last one.
-static bool arrive(exponential_steps *self, double t)
+static bool accept_step(exponential_steps *self, double t)
 {
     const integrator_settings *equations = &self->equations;
     memcpy(self->y, self->y_end, self->n * sizeof *self->y);
@@ -306,14 +306,14 @@ static double end_of(const exponential_steps *self, int64_t at, int rung)
 }
 
 // A Jacobian where there is none, or where that of before has not served for long.
-static bool renew(exponential_steps *self)
+static bool renew_jacobian(exponential_steps *self)
 {
     linear_part *part = self->part;
     if (part->prepared && part->spent <= part->patience)
         return true;
     if (part->prepared && part->patience < MOST_PATIENCE)
         part->patience *= 2;
-    return refresh(self);
+    return refresh_linear(self);
 }
 
 // Tries shorter and shorter steps until one has an error that is allowed; RUNGS: there is none.
@@ -339,27 +339,27 @@ exponential_outcome exponential_steps_step(exponential_steps *self, double t_sto
     int64_t at = llround(x);
     self->before = nextafter(t_stop, -INFINITY);
     if (fabs(x - (double)at) > 1e-6)
-        return refuse(self, self->first + ceil(x) * finest(self));
+        return refuse_step(self, self->first + ceil(x) * finest(self));
     if (finest(self) > left * (1 + 1e-9) || !find_present(self))
-        return refuse(self, end_of(self, at, RUNGS - 1));
-    if (!renew(self))
-        return refuse(self, end_of(self, at, 0));
+        return refuse_step(self, end_of(self, at, RUNGS - 1));
+    if (!renew_jacobian(self))
+        return refuse_step(self, end_of(self, at, 0));
     self->settings.drift(self->t, self->y, self->slope, self->drift, equations->self);
     int rung = try_steps(self, at, left, &error);
     if (rung == RUNGS) {
         self->part->rung = RUNGS - 1;
         self->part->spent += STRETCH;
-        return refuse(self, end_of(self, at, 0));
+        return refuse_step(self, end_of(self, at, 0));
     }
     double t = end_of(self, at, rung);
     bool stops = t > t_stop - 1e-9 * finest(self);
     t = stops ? t_stop : t;
     if (equations->events &&
         (equations->events(t, self->y_end, self->g_end, equations->self) || passes_event(self)))
-        return refuse(self, t);
+        return refuse_step(self, t);
     control(self, rung, error);
-    if (!arrive(self, t))
-        return refuse(self, t + finest(self));
+    if (!accept_step(self, t))
+        return refuse_step(self, t + finest(self));
     return stops ? EXPONENTIAL_STOPPED : EXPONENTIAL_STEPPED;
 }
 

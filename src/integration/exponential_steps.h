@@ -1,7 +1,7 @@
 // Long steps of error-controlled size for a launcher that moves little: exponential ones
 // (math/matrices/exponential.h), with the Jacobian of where they began as their linear part. What
 // they cannot do, an event, an instant off their grid, a stretch too rough for them, they refuse;
-// then an explicit integrator goes on to an instant that they name.
+// then an explicit integrator continues to an instant that they name.
 #ifndef LD_SIMULATION_EXPONENTIAL_STEPS_H
 #define LD_SIMULATION_EXPONENTIAL_STEPS_H
 
@@ -38,7 +38,7 @@ void exponential_steps_count_from(exponential_steps *self, double t);
 // again, though another tube may have taken the place of that of before. LD_ERR_MEMORY, where it is
 // new.
 ld_status exponential_steps_take(exponential_steps *self, int kind, ld_error *error);
-// Goes on from (t, y); the equations may be others than before.
+// Continues from (t, y); the equations may be others than before.
 void exponential_steps_start(exponential_steps *self, double t, const double *y);
 
 // One step, not beyond t_stop.

@@ -21,7 +21,7 @@
 typedef enum asked {
     ASKED_ALL,  // everything: no step after a load
     ASKED_RATE, // first the rate where the step begins, which is known
-    ASKED_STAGE // then the first stage, from which on the library goes on by itself
+    ASKED_STAGE // then the first stage, from which on the library continues on its own
 } asked;
 
 struct integrator {
@@ -35,18 +35,18 @@ struct integrator {
     int *found;       // event flags of the last landing
     int failed_rhs;
     ld_status failure; // of the step that failed
-    bool anew;         // the next step starts anew
+    bool anew;         // the next step starts again
     bool stopped;      // the last step landed on a stop
 
-    // What the library knows but does not tell, for those who save it.
+    // What the library knows but does not report, for those who save it.
     N_Vector y_previous, rate_previous; // where the last step began
-    bool wants_rate_previous;           // the next evaluation is that one
+    bool needs_rate_previous;           // the next evaluation is that one
     const double *rate;                 // the latest evaluation, at t_rate
     double t_rate;
     N_Vector y_end; // where the last step ended, if `within`
     double t_end;
     bool within;                  // t and y lie within the last step, not at its end
-    bool wants_end;               // the events' next call is at the end
+    bool needs_end;               // the events' next call is at the end
     double *g, t_g;               // the events' latest values
     double error, error_previous; // biased local errors of the latest attempt, of the last step
     double h, t_stop;             // of the last step
@@ -86,12 +86,12 @@ static int call_rhs(double t, N_Vector y, N_Vector y_dot, void *user)
     self->asked = ASKED_ALL;
     int failed = self->settings.rhs(t, data(y), data(y_dot), self->settings.self);
     self->failed_rhs |= failed;
-    if (self->wants_rate_previous)
+    if (self->needs_rate_previous)
         copy(y_dot, self->rate_previous);
-    self->wants_rate_previous = false;
+    self->needs_rate_previous = false;
     self->rate = data(y_dot);
     self->t_rate = t;
-    self->wants_end = true;
+    self->needs_end = true;
     return failed ? -1 : 0;
 }
 
@@ -99,16 +99,16 @@ static int call_events(double t, N_Vector y, double *g, void *user)
 {
     integrator *self = user;
     size_t size = (size_t)self->settings.event_count * sizeof *g;
-    // once it has found an event, the library asks at each step's beginning for what it was told
+    // once it has found an event, the library asks at each step's beginning for what it was given
     if (self->asked != ASKED_ALL || t == self->t_g) {
         memcpy(g, self->g, size);
         return 0;
     }
-    if (self->wants_end) {
+    if (self->needs_end) {
         copy(y, self->y_end);
         self->t_end = t;
     }
-    self->wants_end = false;
+    self->needs_end = false;
     int failed = self->settings.events(t, data(y), g, self->settings.self);
     memcpy(self->g, g, size);
     self->t_g = t;
@@ -347,12 +347,12 @@ static int start(integrator *self, double h)
 {
     self->failed_rhs = 0;
     self->error = 1;
-    self->wants_rate_previous = true;
+    self->needs_rate_previous = true;
     return reset(self, h);
 }
 
 // One step of the library's.
-static int evolve(integrator *self, double t_stop)
+static int evolve_step(integrator *self, double t_stop)
 {
     self->loaded = self->stopped = false;
     self->error_previous = self->error;
@@ -367,7 +367,7 @@ static int evolve(integrator *self, double t_stop)
     return flag;
 }
 
-// Takes the last step anew so that it ends at the event, or where else it is wanted, now at
+// Takes the last step again so that it ends at the event, or where else it is requested, now at
 // self->t.
 static integrator_outcome land_on_event(integrator *self, ld_error *error)
 {
@@ -379,7 +379,7 @@ static integrator_outcome land_on_event(integrator *self, ld_error *error)
         return INTEGRATOR_EVENT;
     int flag = start(self, t_event - self->t);
     if (flag >= 0)
-        flag = evolve(self, t_event);
+        flag = evolve_step(self, t_event);
     if (flag < 0)
         return fail(self, flag, error);
     // a step that error control made shorter ends before the event, which the next ones will find
@@ -397,7 +397,7 @@ static void rate_at_end(integrator *self, N_Vector rate)
         ERKStepGetDky(self->erk, self->t_end, 1, rate);
 }
 
-static int go_on(integrator *self)
+static int continue_steps(integrator *self)
 {
     rate_at_end(self, self->rate_previous);
     return 0;
@@ -421,7 +421,7 @@ static double resumed_size(const integrator *self, double t_stop)
     return shortened && h_next != h ? h * (h_next / h) : h_next;
 }
 
-// After a load the library starts anew, but as if it went on. The bound on the size, which would
+// After a load the library starts again, but as if it continued. The bound on the size, which would
 // round it, comes back at the first stage.
 static int resume(integrator *self, double t_stop)
 {
@@ -472,12 +472,12 @@ integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *er
         return stop_at_once(self, t_stop);
     int flag = self->anew     ? start(self, self->next_step)
                : self->loaded ? resume(self, t_stop)
-                              : go_on(self);
+                              : continue_steps(self);
     copy(self->y, self->y_previous);
     self->t_previous = self->t;
     self->anew = false;
     if (flag >= 0)
-        flag = evolve(self, t_stop);
+        flag = evolve_step(self, t_stop);
     if (flag < 0)
         return fail(self, flag, error);
     if (flag == ARK_ROOT_RETURN) {
@@ -555,7 +555,7 @@ int64_t integrator_evaluations(const integrator *self)
 // ---- saving and loading
 
 // What the library knows of the last step and of the next, as it would be loaded.
-static void gather(integrator *self)
+static void gather_state(integrator *self)
 {
     if (!self->loaded) {
         rate_at_end(self, self->rate_end);
@@ -599,7 +599,7 @@ void integrator_archive(integrator *self, archive *bytes)
     if (bytes->loading && bytes->failed)
         return;
     if (!bytes->loading)
-        gather(self);
+        gather_state(self);
     archive_step(self, bytes);
     archive_doubles(bytes, self->g, (size_t)self->settings.event_count);
     for (int i = 0; i < self->settings.event_count; i++)

@@ -47,7 +47,7 @@ typedef struct integrator_settings {
 typedef enum integrator_outcome {
     INTEGRATOR_STEPPED, // one step done, nothing special
     INTEGRATOR_STOPPED, // landed on t_stop
-    INTEGRATOR_EVENT,   // landed on an event: integrator_event(i) tells which
+    INTEGRATOR_EVENT,   // landed on an event: integrator_event(i) says which
     INTEGRATOR_FAILED,  // error holds the reason
 } integrator_outcome;
 
@@ -57,15 +57,15 @@ void integrator_free(integrator *self);
 // (Re)starts at t with state y (copied). Call it whenever the equations have changed.
 ld_status integrator_start(integrator *self, double t, const double *y, ld_error *error);
 
-// One step of error-controlled size, not beyond t_stop. At an event the step is taken anew to end
+// One step of error-controlled size, not beyond t_stop. At an event the step is taken again to end
 // on it, so that the state there is a step's end and not an interpolated one. After an event the
-// next step starts anew, whether integrator_start was called or not.
+// next step starts again, whether integrator_start was called or not.
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error);
 
 // Of the step that failed: LD_ERR_NUMERIC, LD_ERR_MEMORY.
 ld_status integrator_failure(const integrator *self);
 
-// Takes the last step anew so that it ends at t, which lies in it; where error control makes it
+// Takes the last step again so that it ends at t, which lies in it; where error control makes it
 // still shorter, before t. INTEGRATOR_STEPPED or _FAILED.
 integrator_outcome integrator_return(integrator *self, double t, ld_error *error);
 
@@ -85,8 +85,9 @@ int64_t integrator_steps(const integrator *self);
 int64_t integrator_evaluations(const integrator *self);
 
 // Saves all that the steps to come depend on, the last one's interpolation and the counts, or loads
-// it into an integrator of the same settings, which then goes on with the same bits; one that was
-// saved on a stop as after integrator_start there. After a failed load it wants integrator_start.
+// it into an integrator of the same settings, which then continues with the same bits; one that was
+// saved on a stop as after integrator_start there. After a failed load it requires
+// integrator_start.
 void integrator_archive(integrator *self, archive *bytes);
 
 #endif

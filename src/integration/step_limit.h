@@ -1,4 +1,4 @@
-// How short steps may become before an integration hardly goes on.
+// How short steps may become before an integration hardly continues.
 #ifndef LD_SIMULATION_STEP_LIMIT_H
 #define LD_SIMULATION_STEP_LIMIT_H
 
@@ -6,7 +6,7 @@
 
 #include "math/functions.h"
 
-// Average length [s] of `steps` steps below which it hardly goes on: 10 ps for each of them (a
+// Average length [s] of `steps` steps below which it hardly continues: 10 ps for each of them (a
 // microsecond of 100 000), of a tolerance finer than the usual one less by as much as steps are
 // shorter and more; never more than `most`.
 static inline double least_step(double tolerance, double usual, double most, int64_t steps)

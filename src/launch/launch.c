@@ -38,7 +38,7 @@ static void take_start(launch_state *self, const launch_start *start, double *y)
     memcpy(y, start->y, (size_t)self->launcher.state_count * sizeof(double));
     self->rest = start->rest;
     self->on_breech = start->on_breech;
-    base_ride_on(&self->launcher.base, start->road);
+    base_set_road(&self->launcher.base, start->road);
 }
 
 static ld_status find_start(ld_run *run, double *y)
@@ -85,7 +85,7 @@ static void forget_start(ld_summary *summary)
     rocket->max_slot_force = rocket->energy_dropped = NAN;
 }
 
-// Once a rocket is out, the next tube is put in its place; the balance goes on without what that
+// Once a rocket is out, the next tube is put in its place; the balance continues without what that
 // drops.
 static ld_status change_tube(ld_run *run, double t)
 {
@@ -108,9 +108,9 @@ static ld_status change_tube(ld_run *run, double t)
     launch_energy_at(self, t, y, run->energy_start, &after);
     run->energy_start += after.residual - before.residual;
     run->summary.rocket[next].energy_dropped = before.kinetic - after.kinetic;
-    launch_let_go_at_once(run, t, y);
+    launch_release_at_once(run, t, y);
     launch_restart_output(run, t);
-    launch_tell(run, LD_EVENT_TUBE, t, -1);
+    launch_record_event(run, LD_EVENT_TUBE, t, -1);
     run->last_row = NAN;
     launch_measure_instant(run, t, y);
     status = propagator_start(run->propagator, t, y, true, &run->error);
@@ -135,9 +135,10 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
     launch_state *self = &run->launch;
     double t = propagator_time(run->propagator);
     const double *y = propagator_state(run->propagator);
-    bool igniting = outcome == INTEGRATOR_STOPPED && t == self->t_ignition && !launch_is_lit(self);
+    bool igniting =
+        outcome == INTEGRATOR_STOPPED && t == self->t_ignition && !launch_is_ignited(self);
     if (igniting)
-        launch_record_ignition(run, t, y); // the row of this instant wants it
+        launch_record_ignition(run, t, y); // the row of this instant requires it
     ld_status status = launch_write_rows(run);
     launch_watch_forces(run, t, y);
     launch_watch_recoil(run, t, y);
@@ -159,7 +160,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
     if (!status)
         status = launch_check_step(run, t, y);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
-        launch_let_go_at_once(run, t, y);
+        launch_release_at_once(run, t, y);
         status = propagator_start(run->propagator, t, y, false, &run->error);
     }
     if (outcome != INTEGRATOR_STEPPED)
@@ -183,7 +184,7 @@ static ld_status step(ld_run *run)
     if (run->outcome == INTEGRATOR_STOPPED && propagator_time(run->propagator) < stop)
         run->outcome = INTEGRATOR_STEPPED; // an input's or a sample's instant is none of the launch
     run->ahead = true;
-    run->event_count = run->event_told = 0;
+    run->event_count = run->event_reported = 0;
     return LD_OK;
 }
 
@@ -199,7 +200,7 @@ ld_status launch_arrive(ld_run *run)
         status = change_tube(run, propagator_time(run->propagator));
     if (!status && launch_is_finished(run)) {
         launch_end_measures(run);
-        launch_tell(run, LD_EVENT_END, propagator_time(run->propagator), -1);
+        launch_record_event(run, LD_EVENT_END, propagator_time(run->propagator), -1);
     }
     return status;
 }
@@ -207,7 +208,7 @@ ld_status launch_arrive(ld_run *run)
 ld_status launch_advance(ld_run *run, double t, bool to_event)
 {
     while (!run->status) {
-        if (to_event && !run->ahead && run->event_told < run->event_count)
+        if (to_event && !run->ahead && run->event_reported < run->event_count)
             break;
         double reached = propagator_time(run->propagator);
         if (run->ahead ? t < reached : t <= reached || launch_is_finished(run))
@@ -220,7 +221,7 @@ ld_status launch_advance(ld_run *run, double t, bool to_event)
     return run->status;
 }
 
-ld_status launch_stand(ld_run *run)
+ld_status launch_find_rest(ld_run *run)
 {
     if (!run->ahead)
         return run->status;
@@ -245,7 +246,7 @@ ld_status launch_begin(ld_run *run)
     run->t_end = settings->end == LD_END_TIME ? last + settings->end_time : INFINITY;
     run->t = run->t_start;
     run->t_input = INFINITY;
-    run->last_row = run->told_at = NAN;
+    run->last_row = run->reported_at = NAN;
     run->summary.t_end = run->t_start;
     set_up_rocket(run, 0, run->t_start);
     forget_equilibrium(&run->summary.equilibrium);
@@ -268,7 +269,7 @@ ld_status launch_begin(ld_run *run)
         launch_pass_stop(run, run->t_start);
     }
     self->phase.locked = self->rocket->lock.present;
-    launch_let_go_at_once(run, run->t_start, y);
+    launch_release_at_once(run, run->t_start, y);
     launch_measure_instant(run, run->t_start, y);
     launch_restart_output(run, run->t_start);
     run->next_progress = run->t_start;

@@ -6,13 +6,13 @@
 
 // Finds the start; the run's state has begun.
 ld_status launch_begin(ld_run *run);
-// Goes on until the integrator's time has reached t, or the launch is finished, or (`to_event`)
+// Continues until the integrator's time has reached t, or the launch is finished, or (`to_event`)
 // something happens. The present is then t, or where that was.
 ld_status launch_advance(ld_run *run, double t, bool to_event);
 // What happens at the end of the step; what to say of one that failed.
 ld_status launch_arrive(ld_run *run);
 ld_status launch_step_failed(ld_run *run);
-// Takes the step under way anew so that it ends at the present.
-ld_status launch_stand(ld_run *run);
+// Takes the step under way again so that it ends at the present.
+ld_status launch_find_rest(ld_run *run);
 
 #endif

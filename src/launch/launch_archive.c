@@ -137,7 +137,7 @@ static void archive_measures(archive *bytes, ld_run *run)
     }
 }
 
-// Where the run stands, and what its events are that have not been told.
+// Where the run stands, and what its events are that have not been reported.
 static void archive_present(archive *bytes, ld_run *run)
 {
     int outcome = (int)run->outcome;
@@ -146,7 +146,7 @@ static void archive_present(archive *bytes, ld_run *run)
     archive_int(bytes, &outcome, INTEGRATOR_STEPPED, INTEGRATOR_EVENT);
     run->outcome = (integrator_outcome)outcome;
     archive_int(bytes, &run->event_count, 0, MOST_EVENTS);
-    archive_int(bytes, &run->event_told, 0, run->event_count);
+    archive_int(bytes, &run->event_reported, 0, run->event_count);
     for (int i = 0; i < run->event_count; i++) {
         ld_event *one = &run->event[i];
         int kind = (int)one->kind;
@@ -158,14 +158,14 @@ static void archive_present(archive *bytes, ld_run *run)
     }
 }
 
-// What a base that is told would go back to where it is told again.
-static void archive_told(archive *bytes, ld_run *run)
+// What an externally driven base would go back to where it is set again.
+static void archive_driven(archive *bytes, ld_run *run)
 {
     const base_system *base = &run->launch.launcher.base;
-    if (!base->kind->tell)
+    if (!base->kind->receive_frame)
         return;
-    archive_double(bytes, &run->told_at);
-    archive_doubles(bytes, run->before_told, (size_t)base->state_count);
+    archive_double(bytes, &run->reported_at);
+    archive_doubles(bytes, run->before_driven, (size_t)base->state_count);
 }
 
 // The present lies in the last step, or at its end; rows come after what has been gone through.
@@ -200,7 +200,7 @@ void launch_archive(ld_run *run, archive *bytes)
     archive_summary(bytes, run);
     archive_jets(bytes, run);
     archive_measures(bytes, run);
-    archive_told(bytes, run);
+    archive_driven(bytes, run);
     propagator_archive(run->propagator, bytes);
     archive_base(bytes, run);
     check_instants(run, bytes);

@@ -1,4 +1,4 @@
-// A base that is told where it is, one that acts by itself at instants, and the wrench on any base.
+// An externally driven base, one that acts on its own at instants, and the wrench on any base.
 #include "launch/launch_base.h"
 
 #include <math.h>
@@ -39,7 +39,7 @@ ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_er
 
 ld_status launch_base_listens(const base_system *base, ld_error *error)
 {
-    if (base->kind->tell)
+    if (base->kind->receive_frame)
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT,
                    "the base's motion can be set with base.kind: external only");
@@ -49,9 +49,9 @@ ld_status launch_begin_base(ld_run *run)
 {
     if (!run->options.base)
         return LD_OK;
-    run->launch.told = &run->told;
+    run->launch.reported = &run->reported;
     ld_status status = launch_base_listens(&run->launch.launcher.base, &run->error);
-    return status ? status : launch_read_frame(run->options.base, &run->told, &run->error);
+    return status ? status : launch_read_frame(run->options.base, &run->reported, &run->error);
 }
 
 double launch_next_sample(const ld_run *run, double t)
@@ -84,7 +84,7 @@ ld_status launch_step_base(ld_run *run, double t, double *y)
         return LD_OK;
     ld_status status = wrench_at(run, t, y, &on, &run->error);
     return status ? status
-                  : base->kind->stepping->go(base, t, &on, y + launcher->base_at, &run->error);
+                  : base->kind->stepping->step_on(base, t, &on, y + launcher->base_at, &run->error);
 }
 
 ld_status launch_sample_base(ld_run *run)

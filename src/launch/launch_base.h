@@ -1,4 +1,4 @@
-// The base of a launch: one that is told where it is, one that acts by itself at instants, and the
+// The base of a launch: an externally driven one, one that acts on its own at instants, and the
 // wrench on any.
 #ifndef LD_LAUNCH_LAUNCH_BASE_H
 #define LD_LAUNCH_LAUNCH_BASE_H
@@ -9,10 +9,10 @@
 ld_status launch_begin_base(ld_run *run);
 // Refuses a base that goes where its kind says.
 ld_status launch_base_listens(const base_system *base, ld_error *error);
-// The frame as it is told.
+// The frame as it is given.
 ld_status launch_read_frame(const ld_base_frame *given, base_frame *frame, ld_error *error);
-// The first instant after t at which the base changes its state by itself [s]; it does so where the
-// present is one.
+// The first instant after t at which the base changes its state on its own [s]; it does so where
+// the present is one.
 double launch_next_sample(const ld_run *run, double t);
 ld_status launch_sample_base(ld_run *run);
 // Takes a base that is stepped from the instant t, where all is in the state y, to its next; others

@@ -1,4 +1,4 @@
-// What happens at events and stops of a launch: the lock lets go, adaptors pass the tip, ignition,
+// What happens at events and stops of a launch: the lock releases, adaptors pass the tip, ignition,
 // corners.
 #include "launch/launch_events.h"
 
@@ -24,7 +24,7 @@ static void pass_adaptor(ld_run *run, int i, double t, const double *y)
         ahead += adaptor[j].at > adaptor[i].at;
     self->phase.passed[i] = true;
     rocket->t_exit[i] = since;
-    launch_tell(run, LD_EVENT_EXIT, t, i);
+    launch_record_event(run, LD_EVENT_EXIT, t, i);
     if (i == 0) {
         rocket->t_rear = since;
         launch_record_exit(run, t, y);
@@ -35,7 +35,7 @@ static void pass_adaptor(ld_run *run, int i, double t, const double *y)
     }
 }
 
-// Rear adaptor out: the rocket goes; the balance goes on without its energy.
+// Rear adaptor out: the rocket goes; the balance continues without its energy.
 static void let_rocket_go(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
@@ -55,14 +55,14 @@ static double touch_speed(const launch_state *self, double speed)
     return fmax(speed, 1e-3 * self->launcher.launching.adaptors.law.v_0);
 }
 
-// The lock lets go; where the rocket then stands it meets the breech.
+// The lock releases; where the rocket then stands it meets the breech.
 static void let_go(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     self->phase.locked = false;
     self->phase.breech = fmin(self->phase.breech, y[self->launcher.launching.layout.x + X_S]);
     run->summary.rocket[self->current].t_release = t - self->t_ignition;
-    launch_tell(run, LD_EVENT_RELEASE, t, -1);
+    launch_record_event(run, LD_EVENT_RELEASE, t, -1);
 }
 
 // A shoe's first touch of a surface, whose speed is kept for the whole contact.
@@ -80,14 +80,14 @@ static bool touch_surfaces(ld_run *run, double t, const double *y)
                 continue;
             double speed = launching_surface_rate(launching, y, i, k);
             self->phase.surface_speed[i][k] = touch_speed(self, speed);
-            launch_tell(run, LD_EVENT_TOUCH, t, i);
+            launch_record_event(run, LD_EVENT_TOUCH, t, i);
             touched = true;
         }
     return touched;
 }
 
 // Whether a stop of a slide pushes is said by its event, where one has been located, else by how it
-// lies, and holds up to the next: so its force goes on smoothly between two of them.
+// lies, and holds up to the next: so its force continues smoothly between two of them.
 bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event)
 {
     launch_state *self = &run->launch;
@@ -101,7 +101,7 @@ bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event)
         *pushing = located ? located : event_stop_press(self, i, &out->launching) > 0 ? 1 : -1;
         if (*pushing == before || !(before || located))
             continue;
-        launch_tell(run, *pushing > 0 ? LD_EVENT_STOP : LD_EVENT_LEAVE, t, i);
+        launch_record_event(run, *pushing > 0 ? LD_EVENT_STOP : LD_EVENT_LEAVE, t, i);
         changed = true;
     }
     return changed;
@@ -126,7 +126,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
                 touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));
-            launch_tell(run, LD_EVENT_TOUCH, t, i);
+            launch_record_event(run, LD_EVENT_TOUCH, t, i);
             changed = true;
         }
     }
@@ -135,14 +135,14 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
         launching_pose unused;
         launching_rocket_pose(&self->launcher.launching, y, &unused, &out);
         self->phase.breech_speed = touch_speed(self, -out.x_dot[X_S]);
-        launch_tell(run, LD_EVENT_BREECH, t, -1);
+        launch_record_event(run, LD_EVENT_BREECH, t, -1);
         changed = true;
     }
     changed |= touch_surfaces(run, t, y);
     for (int j = 0; j < self->launcher.base.event_count; j++) {
         int direction = propagator_event(run->propagator, EVENT_BASE, j);
         if (direction)
-            launch_tell(run, direction > 0 ? LD_EVENT_LAND : LD_EVENT_LIFT, t, j);
+            launch_record_event(run, direction > 0 ? LD_EVENT_LAND : LD_EVENT_LIFT, t, j);
         changed |= direction > 0;
     }
     bool last = self->current + 1 == model_firing_count(self->model);
@@ -156,7 +156,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
 
 // A jump of the thrust, or the start itself, can carry the lock's force past the release force
 // without a crossing that the integrator could locate.
-void launch_let_go_at_once(ld_run *run, double t, const double *y)
+void launch_release_at_once(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     if (!self->phase.locked || self->held_down)
@@ -176,7 +176,7 @@ double launch_change_instant(const launch_state *self)
 }
 
 // The next instant at which the step must end: ignition, a corner of the thrust, the end; `none`
-// where nobody has said when.
+// where no one has said when.
 static double next_stop(const ld_run *run, double t, double none)
 {
     const launch_state *self = &run->launch;
@@ -206,7 +206,7 @@ static double next_stop(const ld_run *run, double t, double none)
     return isinf(stop) ? none : stop;
 }
 
-// A step wants a finite end.
+// A step requires a finite end.
 double launch_next_stop(const ld_run *run, double t)
 {
     return next_stop(run, t, t + 1);
@@ -228,8 +228,8 @@ static int pressure_piece_at(const launch_state *self, double t)
     return piece;
 }
 
-// At a stop: ignition lights the motor or lets the pressure on, a corner begins the next piece of
-// the curve of either, or of what drives the base; the lock may let go.
+// At a stop: ignition ignites the motor or lets the pressure on, a corner begins the next piece of
+// the curve of either, or of what drives the base; the lock may release.
 bool launch_pass_stop(ld_run *run, double t)
 {
     launch_state *self = &run->launch;
@@ -246,6 +246,6 @@ bool launch_pass_stop(ld_run *run, double t)
     bool driven = base->kind->next_corner != NULL;
     bool base_corner = driven && base->kind->next_corner(base, nextafter(t, -INFINITY)) == t;
     if (base_corner || (burning && t > self->t_ignition))
-        launch_tell(run, LD_EVENT_CORNER, t, -1);
+        launch_record_event(run, LD_EVENT_CORNER, t, -1);
     return jets_pass_corners(&self->jets, t) || burning || driven || held != self->held_down;
 }

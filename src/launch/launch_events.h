@@ -9,7 +9,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y);
 // The same of the stops of recoil slides, after each step; `at_event`: which ended at one.
 bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event);
 // Opens a lock that carries more than its release force without a crossing to be located.
-void launch_let_go_at_once(ld_run *run, double t, const double *y);
+void launch_release_at_once(ld_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].
 double launch_change_instant(const launch_state *self);
 // The next instant at which a step must end [s]; at one: what begins there, true where the

@@ -22,9 +22,9 @@
 #include "systems/launching/launching_kinematics.h"
 
 // Estimated errors are those of the lower order; those that kinks leave, which come and go between
-// two of its stages, are larger. So many times e are told: of 400 random launches 97 % are then
-// within three times what is told (simulation.exit_error). Kinks fall more slowly with the
-// tolerance than the estimate does: below the usual tolerance more is told.
+// two of its stages, are larger. So many times e are reported: of 400 random launches 97 % are then
+// within three times what is reported (simulation.exit_error). Kinks fall more slowly with the
+// tolerance than the estimate does: below the usual tolerance more is reported.
 static const double TOLD = 3;
 static const double USUAL_TOLERANCE = 1e-5;
 // Rates below this [rad/s] are as good as none.
@@ -101,7 +101,7 @@ static void find_twin(const exit_error *self, int count, const double *y, double
         twin[i] = y[i] + self->e[i];
 }
 
-static void lose(exit_error *self)
+static void drop_estimate(exit_error *self)
 {
     memset(self->e, 0, sizeof self->e);
     self->under_way = false;
@@ -115,7 +115,7 @@ void exit_error_begin_step(exit_error *self, ld_run *run)
     const launcher_system *launcher = &launch->launcher;
     double twin[LD_MAX_STATES], moved[LD_MAX_STATES];
     int count = launcher->base_at;
-    self->under_way = launch->phase.rocket && launch_is_lit(launch);
+    self->under_way = launch->phase.rocket && launch_is_ignited(launch);
     if (!self->under_way) {
         memset(self->e, 0, sizeof self->e);
         self->lost = false;
@@ -132,7 +132,7 @@ void exit_error_begin_step(exit_error *self, ld_run *run)
     if (!out ||
         launcher_evaluate_tube(launcher, model_run(launch->model)->formulation, &input.launching,
                                &launch->phase, twin, &self->out.launching)) {
-        lose(self);
+        drop_estimate(self);
         return;
     }
     launching_rates(&launcher->launching, self->y, &out->launching, true, self->run);
@@ -153,7 +153,7 @@ static void factor(exit_error *self, double h)
     for (int i = 0; i < n; i++)
         self->LU[i * n + i] += 1;
     if (lu_factor(n, self->LU, self->pivot))
-        lose(self);
+        drop_estimate(self);
 }
 
 // What the tube's speeds change by in a step of h, as an implicit one has it.
@@ -172,7 +172,7 @@ static void soften(exit_error *self, const launching_layout *at, double h, doubl
 }
 
 // Speeds by their rates where the step began, then places by the rates that these speeds give.
-static void move(exit_error *self, const launcher_system *launcher, double h)
+static void advance_state(exit_error *self, const launcher_system *launcher, double h)
 {
     const launching_system *launching = &launcher->launching;
     const launching_layout *at = &launching->layout;
@@ -200,17 +200,17 @@ void exit_error_end_step(exit_error *self, ld_run *run)
     double added[LD_MAX_STATES], size = 0;
     if (!self->under_way)
         return;
-    move(self, launcher, propagator_time(run->propagator) - self->t);
+    advance_state(self, launcher, propagator_time(run->propagator) - self->t);
     propagator_error(run->propagator, added);
     for (int i = 0; i < launcher->base_at; i++) {
         self->e[i] += added[i];
         size += fabs(self->e[i]);
     }
     if (!isfinite(size))
-        lose(self);
+        drop_estimate(self);
 }
 
-// ---- what is told
+// ---- what is reported
 
 static ld_tip_off tip_off_at(const ld_run *run, const launcher_input *input, const double *y)
 {
@@ -235,13 +235,13 @@ void exit_error_record(const exit_error *self, ld_run *run, double t, const doub
     double rates = hypot(own->pitch_rate, own->yaw_rate);
     double apart = hypot(of_twin.pitch_rate - own->pitch_rate, of_twin.yaw_rate - own->yaw_rate);
     double tolerance = model_run(launch->model)->tolerance;
-    double told =
+    double estimate =
         TOLD * fmax(1, pow(USUAL_TOLERANCE / tolerance, 0.3)) * fmax(apart, tolerance * rates);
-    if (self->lost || !isfinite(told))
-        told = fmax(rates, LEAST_RATES);
-    rocket->exit_error.rates = told;
-    rocket->exit_error.yaw_rate = told / fabs(cos(rocket->pitch));
-    rocket->exit_error.relative = told / fmax(rates, LEAST_RATES);
+    if (self->lost || !isfinite(estimate))
+        estimate = fmax(rates, LEAST_RATES);
+    rocket->exit_error.rates = estimate;
+    rocket->exit_error.yaw_rate = estimate / fabs(cos(rocket->pitch));
+    rocket->exit_error.relative = estimate / fmax(rates, LEAST_RATES);
 }
 
 void exit_error_note(ld_run *run)

@@ -72,7 +72,7 @@ static ld_status check_next(ld_run *run, double t)
                    next + 1, t);
 }
 
-// A table of the base's motion must go on beyond t.
+// A table of the base's motion must continue beyond t.
 ld_status launch_check_base(ld_run *run, double t)
 {
     double first, last;
@@ -86,7 +86,7 @@ ld_status launch_check_base(ld_run *run, double t)
 }
 
 // Steps of less than 50 ns on the average over a millisecond, or shorter on the average than that
-// over the whole run: it would hardly go on.
+// over the whole run: it would hardly continue.
 static ld_status check_steps(ld_run *run, double t)
 {
     const int64_t most = 20000;
@@ -107,7 +107,7 @@ static ld_status check_steps(ld_run *run, double t)
                    (long long)steps, spent, t);
 }
 
-// On an open guide the table must go on as in free flight.
+// On an open guide the table must continue as in free flight.
 static ld_status check_air(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
@@ -125,7 +125,7 @@ static ld_status check_air(ld_run *run, double t, const double *y)
                    self->air->aerodynamics.last_of, last, t);
 }
 
-// Every millisecond of physics: the caller hears of it, tube and air are looked at.
+// Every millisecond of physics: the caller hears of it, tube and air are checked.
 static ld_status report_progress(ld_run *run, double t)
 {
     if (t < run->next_progress)

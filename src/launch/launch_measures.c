@@ -31,7 +31,7 @@ static double time_of(const ld_run *run, measure_instant instant)
     case INSTANT_START:
         return run->t_rocket;
     case INSTANT_IGNITION:
-        return launch_is_lit(self) ? self->t_ignition : NAN;
+        return launch_is_ignited(self) ? self->t_ignition : NAN;
     case INSTANT_RELEASE:
         return self->t_ignition + rocket->t_release;
     case INSTANT_EXIT:

@@ -24,7 +24,7 @@ bool launch_is_finished(const ld_run *run)
     return self->phase.passed[0];
 }
 
-void launch_tell(ld_run *run, ld_event_kind kind, double t, int part)
+void launch_record_event(ld_run *run, ld_event_kind kind, double t, int part)
 {
     assert(run->event_count < MOST_EVENTS);
     run->event[run->event_count++] =

@@ -42,17 +42,17 @@ struct ld_run {
     ld_error archived; // why what the base has besides its state could not be saved or loaded
     propagator *propagator;
     exit_error *exit_error; // NULL: not estimated
-    base_frame told;        // frame T at the start, of a base that is told
-    // where it was told last [s], and its state before that: told again there it was not told
+    base_frame reported;    // frame T at the start, of an externally driven base
+    // where it was given last [s], and its state before that: set again there it was not reported
     // before
-    double told_at, before_told[BASE_MOST_STATES];
+    double reported_at, before_driven[BASE_MOST_STATES];
 
-    bool outside; // whoever asks takes the steps (launch_outside.h)
+    bool outside; // whoever asks takes the steps (launch_exchange.h)
     double t;     // [s] the present
     bool ahead;   // a step ends later than the present: what happens at its end has not
-    integrator_outcome outcome;  // of that step
-    double t_input;              // [s] a step ends there, for an input; infinity: none comes
-    int event_count, event_told; // at the present
+    integrator_outcome outcome;      // of that step
+    double t_input;                  // [s] a step ends there, for an input; infinity: none comes
+    int event_count, event_reported; // at the present
     ld_event event[MOST_EVENTS];
 
     double row[LD_MAX_COLUMNS];    // one row of the history
@@ -74,7 +74,7 @@ struct ld_run {
     measure_window measure[LD_MAX_MEASURES]; // of the rocket that is in its tube
     double point[LD_MAX_FIRINGS][2];         // [m] x and z of the rear adaptors at their ignition
     flight_system flight;                    // of the rocket that flies now
-    quantity_columns flight_columns;         // its, where rows are wanted
+    quantity_columns flight_columns;         // its, where rows are requested
     double cpu, cpu_output;                  // [s] spent in all; of it on rows and their sink
 };
 
@@ -82,6 +82,6 @@ struct ld_run {
 const double *run_present_state(ld_run *run);
 bool launch_is_finished(const ld_run *run);
 // Keeps what happens at t for whoever asks; `part`: adaptor or wheel, -1: of none.
-void launch_tell(ld_run *run, ld_event_kind kind, double t, int part);
+void launch_record_event(ld_run *run, ld_event_kind kind, double t, int part);
 
 #endif

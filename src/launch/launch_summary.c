@@ -78,7 +78,7 @@ void launch_record_ignition(ld_run *run, double t, const double *y)
     launching_pose pose;
     launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
     v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), pose.p1));
-    launch_tell(run, LD_EVENT_IGNITION, t, -1);
+    launch_record_event(run, LD_EVENT_IGNITION, t, -1);
     run->point[self->current][0] = r.x;
     run->point[self->current][1] = r.z;
     launcher_input input;
@@ -153,7 +153,7 @@ void launch_watch_loads(ld_run *run, double t, const double *y)
     }
 }
 
-// One hinge at a time since the ignition; the integrals go on by the trapezoidal rule, one that
+// One hinge at a time since the ignition; the integrals continue by the trapezoidal rule, one that
 // begins after the ignition as if it had been so since then.
 static void watch_hinge(hinge_watch *watch, double since, const hinge_report *hinge,
                         ld_hinge_summary *held)

@@ -2,7 +2,7 @@
 // follows of it.
 //
 // Height and state are linear in the cosines and sines that the road is a sum of. Either their
-// phases are drawn, launch by launch. Or Gram-Schmidt's method, with pivots, finds the few
+// phases are sampled, launch by launch. Or Gram-Schmidt's method, with pivots, finds the few
 // independent combinations of them, patterns, by which all that the launch begins with and drives
 // over can vary; a launch on each, and one on its opposite, give what it adds to the variance.
 #include <stdlib.h>
@@ -134,7 +134,7 @@ static void set_model(exit_bench *self, const ld_model *of, double speed, double
 // Runs on a road from the state `start->y`.
 static ld_status run_on(exit_bench *self, const ld_road *under, ld_error *error)
 {
-    if (!response_goes_on(self->response))
+    if (!response_continues(self->response))
         return ld_fail(error, LD_ERR_INTERRUPTED, "interrupted after %d launches", self->launches);
     self->launches++;
     ld_status status = road_build(under, 0, 0, &self->start.road, error);

@@ -1,7 +1,7 @@
 // The loop of a hinge, opened. A command r acts through the controller alone, so with E the gain
 // from r to the error and b that to the chassis' rate along the hinge, which a feedforward takes,
 //   asked / (C r) = E - (F/C) b = 1/(1 + L),
-// C and F what the controller makes of an error and of that rate: the closed loop tells the open
+// C and F what the controller makes of an error and of that rate: the closed loop gives the open
 // one. How the chassis turns the platform is what it does where forces on it let it do nothing else
 // than turn about the hinge.
 #include "launchdyn/loop.h"
@@ -88,8 +88,8 @@ static double complex feedforward(const ld_stabiliser *given, double complex s)
 }
 
 // What an input makes of the columns.
-static ld_status see(const ld_loop *self, const char *input, double frequency,
-                     double complex seen[SEEN], ld_error *error)
+static ld_status evaluate_columns(const ld_loop *self, const char *input, double frequency,
+                                  double complex seen[SEEN], ld_error *error)
 {
     ld_phasor gain[SEEN];
     ld_status status =
@@ -107,10 +107,10 @@ static double complex delay_of(const ld_loop *self, double frequency)
     return cosine - I * sine;
 }
 
-static ld_status look_at(const ld_loop *self, double frequency, look *at, ld_error *error)
+static ld_status evaluate_at(const ld_loop *self, double frequency, look *at, ld_error *error)
 {
     double complex seen[SEEN], s = I * TWO_PI * frequency, rate = 0;
-    ld_status status = see(self, self->command, frequency, seen, error);
+    ld_status status = evaluate_columns(self, self->command, frequency, seen, error);
     if (status)
         return status;
     for (int i = 0; i < 3; i++)
@@ -149,10 +149,10 @@ static ld_status close_in(const ld_loop *self, double (*side)(double complex), d
                           double high, double *frequency, look *at, ld_error *error)
 {
     look first;
-    ld_status status = look_at(self, low, &first, error);
+    ld_status status = evaluate_at(self, low, &first, error);
     for (int i = 0; i < HALVINGS && !status; i++) {
         *frequency = 0.5 * (low + high);
-        status = look_at(self, *frequency, at, error);
+        status = evaluate_at(self, *frequency, at, error);
         bool below = !status && side(at->open) * side(first.open) > 0;
         low = below ? *frequency : low;
         high = below ? high : *frequency;
@@ -221,9 +221,9 @@ static ld_status find_margins(ld_loop *self, ld_error *error)
                                       .bandwidth = NAN,
                                       .peak = 1,
                                       .peak_at = NAN};
-    ld_status status = look_at(self, frequency_of(0), &step[0], error);
+    ld_status status = evaluate_at(self, frequency_of(0), &step[0], error);
     for (int k = 1; k < GRID && !status; k++) {
-        status = look_at(self, frequency_of(k), &step[k % 2], error);
+        status = evaluate_at(self, frequency_of(k), &step[k % 2], error);
         if (!status)
             status = note_step(self, k, &step[(k - 1) % 2], &step[k % 2], error);
     }
@@ -344,7 +344,7 @@ ld_status ld_loop_points(ld_loop *self, const double *frequency, size_t count, l
     look at;
     ld_status status = LD_OK;
     for (size_t i = 0; i < count && !status; i++) {
-        status = look_at(self, frequency[i], &at, error);
+        status = evaluate_at(self, frequency[i], &at, error);
         if (!status)
             point[i] =
                 (ld_loop_point){phasor(at.open), phasor(tracking(&at)), phasor(sensitivity(&at))};
@@ -360,14 +360,15 @@ typedef struct held_chassis {
 } held_chassis;
 
 // What forces and moments on the chassis do, one by one.
-static ld_status hold(const ld_loop *self, double frequency, held_chassis *by, ld_error *error)
+static ld_status evaluate_held_chassis(const ld_loop *self, double frequency, held_chassis *by,
+                                       ld_error *error)
 {
     static const char *const push[WAYS] = {"chassis.force_x",  "chassis.force_y",
                                            "chassis.force_z",  "chassis.moment_x",
                                            "chassis.moment_y", "chassis.moment_z"};
     double complex seen[SEEN];
     for (int j = 0; j < WAYS; j++) {
-        ld_status status = see(self, push[j], frequency, seen, error);
+        ld_status status = evaluate_columns(self, push[j], frequency, seen, error);
         if (status)
             return status;
         by->error[j] = seen[0];
@@ -398,16 +399,16 @@ static double complex error_at(const held_chassis *by, const double complex rate
     return sum;
 }
 
-// With the chassis held the loop as it is at once tells L and what comes through without it; late,
+// With the chassis held the loop as it is at once gives L and what comes through without it; late,
 // both the loop and its feedforward are.
-static ld_status reject(const ld_loop *self, double frequency, double complex *rejection,
-                        ld_error *error)
+static ld_status evaluate_rejection(const ld_loop *self, double frequency,
+                                    double complex *rejection, ld_error *error)
 {
     held_chassis by;
     double complex seen[SEEN], turn[WAYS], s = I * TWO_PI * frequency;
-    ld_status status = hold(self, frequency, &by, error);
+    ld_status status = evaluate_held_chassis(self, frequency, &by, error);
     if (!status)
-        status = see(self, self->command, frequency, seen, error);
+        status = evaluate_columns(self, self->command, frequency, seen, error);
     if (status)
         return status;
     for (int i = 0; i < WAYS; i++) {
@@ -428,7 +429,7 @@ ld_status ld_loop_rejection(ld_loop *self, const double *frequency, size_t count
     double complex at;
     ld_status status = LD_OK;
     for (size_t i = 0; i < count && !status; i++) {
-        status = reject(self, frequency[i], &at, error);
+        status = evaluate_rejection(self, frequency[i], &at, error);
         if (!status)
             rejection[i] = phasor(at);
     }

@@ -75,7 +75,7 @@ typedef struct bench {
     double rates[2][2 * LD_MAX_STATES], row[2][LD_MAX_COLUMNS];
 } bench;
 
-static int look(bench *self, int side)
+static int differentiate(bench *self, int side)
 {
     history_row(&self->launch, self->system.t, self->y, 0, self->row[side]);
     return linear_rates(&self->launch, &self->system, self->y, self->rates[side]);
@@ -100,7 +100,7 @@ static int see_unknown(bench *self, int j, plant *to)
     for (int side = 0; side < 2; side++) {
         go_to_rest(self);
         linear_displace(&self->launch, &self->system, j, side ? -h : h, self->y);
-        bad |= look(self, side);
+        bad |= differentiate(self, side);
     }
     divide(to->outputs, self->row[0], self->row[1], 2 * h, to->C + to->outputs * j);
     return bad;
@@ -113,7 +113,7 @@ static int see_input(bench *self, double *place, double h, double *B, double *D,
     go_to_rest(self);
     for (int side = 0; side < 2; side++) {
         *place = side ? -h : h;
-        bad |= look(self, side);
+        bad |= differentiate(self, side);
     }
     *place = 0;
     divide(to->states, self->rates[0], self->rates[1], 2 * h, B);

@@ -36,7 +36,7 @@ static const ld_column road_inputs[ROAD_INPUTS] = {
 
 struct ld_response {
     const ld_model *model;
-    const ld_watch *watch; // NULL: nobody
+    const ld_watch *watch; // NULL: no one
     bool rubbing;          // the adaptors, which hardly slide
     ld_model at[2];        // on a flat road, at both ends of the speeds
     ld_simulation *simulation;
@@ -54,7 +54,7 @@ struct ld_response {
     int chosen_count, *chosen; // columns
     // Where the hinges rub: what a unit of viscous friction in each adds to the plant (without
     // states: nothing), what their friction amounts to now [N m s/rad].
-    bool hinges_rub;
+    bool hinges_have_friction;
     plant viscous[HINGES];
     double friction[HINGES];
     // B, B', B" of the reduced states; C of the chosen columns on them, by rows
@@ -352,7 +352,7 @@ static ld_status set_plant(ld_response *self, double speed, ld_error *error)
     bool single = range[0] == range[1];
     double share = single ? 0 : (speed - range[0]) / (range[1] - range[0]);
     plant_between(&self->end[0], &self->end[single ? 0 : 1], share, &self->now);
-    for (int i = 0; i < HINGES && self->hinges_rub; i++)
+    for (int i = 0; i < HINGES && self->hinges_have_friction; i++)
         if (self->viscous[i].states)
             plant_add(&self->now, self->friction[i], &self->viscous[i]);
     if (hessenberg_reduce(&self->solver, self->now.A))
@@ -379,7 +379,7 @@ static ld_status go_at(ld_response *self, double speed, ld_error *error)
     if (!(single ? speed == range[0] : speed > 0 && speed <= range[1]))
         return ld_fail(error, LD_ERR_INPUT,
                        "a speed of %g m/s is not within the range that was linearised", speed);
-    if (self->hinges_rub && speed > 0)
+    if (self->hinges_have_friction && speed > 0)
         return find_friction(self, speed, error);
     return set_plant(self, speed, error);
 }
@@ -410,8 +410,8 @@ static void excite(const ld_response *self, const excitation *by, double omega, 
 }
 
 // C x + (D + i omega D' - omega^2 D") u.
-static void tell(const ld_response *self, const excitation *by, double omega, const double *z,
-                 ld_phasor *y)
+static void output_phasors(const ld_response *self, const excitation *by, double omega,
+                           const double *z, ld_phasor *y)
 {
     int n = self->now.states, rows = self->now.outputs;
     for (int i = 0; i < self->chosen_count; i++) {
@@ -434,8 +434,8 @@ static void tell(const ld_response *self, const excitation *by, double omega, co
 
 // What the columns chosen answer to each of `count` excitations, y [count][chosen]; z is room for
 // the states of each.
-static ld_status answer(ld_response *self, const excitation *by, int count, double frequency,
-                        double *z, ld_phasor *y, ld_error *error)
+static ld_status respond(ld_response *self, const excitation *by, int count, double frequency,
+                         double *z, ld_phasor *y, ld_error *error)
 {
     int n = self->now.states;
     double omega = TWO_PI * frequency;
@@ -447,7 +447,7 @@ static ld_status answer(ld_response *self, const excitation *by, int count, doub
         return ld_fail(error, LD_ERR_NUMERIC,
                        "at %g Hz the response of an undamped motion is unbounded", frequency);
     for (int i = 0; i < count; i++)
-        tell(self, &by[i], omega, z + 2 * n * i, y + self->chosen_count * i);
+        output_phasors(self, &by[i], omega, z + 2 * n * i, y + self->chosen_count * i);
     return LD_OK;
 }
 
@@ -501,14 +501,14 @@ ld_status ld_response_gain(ld_response *self, double speed, const char *input,
         return status;
     for (size_t i = 0; i < count && !status; i++)
         status =
-            answer(self, &by, 1, frequency[i], z, gain + i * (size_t)self->chosen_count, error);
+            respond(self, &by, 1, frequency[i], z, gain + i * (size_t)self->chosen_count, error);
     free(z);
     return status;
 }
 
 // At the speed on its road, with room for what is answered; *z is freed.
-static ld_status go_on_road(ld_response *self, double speed, double **z, ld_phasor **y,
-                            ld_error *error)
+static ld_status continue_on_road(ld_response *self, double speed, double **z, ld_phasor **y,
+                                  ld_error *error)
 {
     ld_status status = response_check_road(self, speed, error);
     if (!status)
@@ -522,10 +522,10 @@ ld_status response_states(ld_response *self, double speed, double frequency, ld_
     int n = self->now.states;
     double *z;
     ld_phasor *y;
-    ld_status status = go_on_road(self, speed, &z, &y, error);
+    ld_status status = continue_on_road(self, speed, &z, &y, error);
     if (status)
         return status;
-    status = answer(self, &self->road[ROAD_OF_LEFT], 2, frequency, z, y, error);
+    status = respond(self, &self->road[ROAD_OF_LEFT], 2, frequency, z, y, error);
     for (int k = 0; k < 2 && !status; k++)
         for (int i = 0; i < n; i++) {
             ld_phasor sum = {0, 0};
@@ -546,8 +546,8 @@ static ld_status square_on_road(ld_response *self, double frequency, double shar
 {
     bool same = shared == 1;
     int count = self->chosen_count;
-    ld_status status = answer(self, &self->road[same ? ROAD_OF_BOTH : ROAD_OF_LEFT], same ? 1 : 2,
-                              frequency, z, y, error);
+    ld_status status = respond(self, &self->road[same ? ROAD_OF_BOTH : ROAD_OF_LEFT], same ? 1 : 2,
+                               frequency, z, y, error);
     for (int i = 0; i < count && !status; i++) {
         ld_phasor left = y[i], right = same ? (ld_phasor){0, 0} : y[count + i];
         square[i] = left.real * left.real + left.imaginary * left.imaginary +
@@ -563,7 +563,7 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
     size_t count = (size_t)self->chosen_count;
     double *z;
     ld_phasor *y;
-    ld_status status = go_on_road(self, speed, &z, &y, error);
+    ld_status status = continue_on_road(self, speed, &z, &y, error);
     if (status)
         return status;
     double *square = calloc(2 * count + 1, sizeof *square), *most = square + count;
@@ -708,18 +708,18 @@ void ld_response_watch(ld_response *self, const ld_watch *watch)
     self->watch = watch;
 }
 
-bool response_goes_on(const ld_response *self)
+bool response_continues(const ld_response *self)
 {
     return !self->watch || self->watch->go_on(self->watch->self);
 }
 
-ld_status ld_response_rub(ld_response *self, bool rub, ld_error *error)
+ld_status ld_response_friction(ld_response *self, bool friction, ld_error *error)
 {
     ld_status status = LD_OK;
-    for (int i = 0; i < HINGES && rub && model_has_vehicle(self->model) && !status; i++)
+    for (int i = 0; i < HINGES && friction && model_has_vehicle(self->model) && !status; i++)
         if (friction_of(self, i)->coulomb > 0 && !self->viscous[i].A)
             status = make_viscous(self, i, error);
-    self->hinges_rub = rub && !status;
+    self->hinges_have_friction = friction && !status;
     self->speed_now = NAN;
     return status;
 }
@@ -729,7 +729,7 @@ ld_status ld_response_density(ld_response *self, double speed, const double *fre
 {
     double *z;
     ld_phasor *y;
-    ld_status status = go_on_road(self, speed, &z, &y, error);
+    ld_status status = continue_on_road(self, speed, &z, &y, error);
     if (status)
         return status;
     for (size_t k = 0; k < count && !status; k++) {
@@ -778,7 +778,7 @@ typedef struct driven {
 static ld_status add_band(driven *self, double frequency, double density, double width,
                           ld_error *error)
 {
-    ld_status status = answer(self->response, self->by, 1, frequency, self->z, self->y, error);
+    ld_status status = respond(self->response, self->by, 1, frequency, self->z, self->y, error);
     for (int i = 0; i < self->response->chosen_count && !status; i++) {
         double gain =
             self->y[i].real * self->y[i].real + self->y[i].imaginary * self->y[i].imaginary;

@@ -16,8 +16,8 @@ double response_rest(const ld_response *self, const char *column);
 const ld_model *response_model(const ld_response *self);
 const road_line *response_lines(const ld_response *self, size_t *count);
 
-// Whether who watches over it lets it go on.
-bool response_goes_on(const ld_response *self);
+// Whether who watches over it lets it continue.
+bool response_continues(const ld_response *self);
 
 // LD_ERR_INPUT where there is no road, or nothing moves over it.
 ld_status response_check_road(const ld_response *self, double speed, ld_error *error);

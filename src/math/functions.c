@@ -118,8 +118,9 @@ static double arc_tangent_rest(double z)
 
 double portable_atan2(double y, double x)
 {
-    // from 0, 1/2 or 1 the tangent of the smaller angle beside an axis goes on: t; the angles from
-    // which it goes on as sums of two, for |y| <= |x| and |y| > |x|, each to the right and the left
+    // from 0, 1/2 or 1 the tangent of the smaller angle beside an axis continues: t; the angles
+    // from which it continues as sums of two, for |y| <= |x| and |y| > |x|, each to the right and
+    // the left
     static const double start[2][2][3][2] = {
         {{{0, 0},
           {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},

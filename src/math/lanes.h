@@ -28,7 +28,7 @@ LD_ALWAYS_INLINE double v4d_sum(v4d a)
 {
     return (a[0] + a[2]) + (a[1] + a[3]);
 }
-/// Tells the compiler that there is at least one lane.
+/// Promises the compiler that there is at least one lane.
 #define LANES_NOT_EMPTY(count)                                                                     \
     do {                                                                                           \
         if ((count) < 1)                                                                           \

@@ -8,7 +8,7 @@
 
 enum { MASSES_TIME, MASSES_MASS, MASSES_CENTER, MASSES_AXIAL, MASSES_TRANSVERSE, MASSES_COLUMNS };
 
-// At row `row` of the table, from 0: what the part of the rocket that it tells of has lost since
+// At row `row` of the table, from 0: what the part of the rocket that it reports of has lost since
 // the first row is taken from the rocket at ignition, without mass error and eccentricity. With the
 // part's mass p at x, its moments of inertia I about its own centre, and X = x - c_0:
 //   m = m_0 + p - p_0,  c = c_0 + (p X - p_0 X_0)/m,

@@ -7,7 +7,7 @@
 static const double TURN = 6.283185307179586476925286766559;
 
 // Where all lie within a turn, a step of more than three quarters of it is one of the instrument,
-// which goes on at the other end.
+// which continues at the other end.
 void motion_unwrap(size_t count, size_t stride, double *angle)
 {
     double low = INFINITY, high = -INFINITY, added = 0, before = angle[0];

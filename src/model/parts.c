@@ -87,12 +87,12 @@ bool model_has_launcher(const ld_model *model)
     return model->base.kind != LD_BASE_NONE;
 }
 
-bool model_base_is_told(const ld_model *model)
+bool model_base_is_external(const ld_model *model)
 {
     return model->base.kind == LD_BASE_EXTERNAL;
 }
 
-void model_tell_base(ld_model *model)
+void model_make_base_external(ld_model *model)
 {
     model->base.kind = LD_BASE_EXTERNAL;
 }

@@ -28,9 +28,9 @@ const struct ld_sweep_axis *model_sweep(const ld_model *model, int i);
 
 // False: a flight alone.
 bool model_has_launcher(const ld_model *model);
-// Whether the base is told where it is; makes it one that is.
-bool model_base_is_told(const ld_model *model);
-void model_tell_base(ld_model *model);
+// Whether the base is externally driven; makes it one that is.
+bool model_base_is_external(const ld_model *model);
+void model_make_base_external(ld_model *model);
 // Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
 bool model_has_vehicle(const ld_model *model);
 // Whether the base is one of bodies, joints and force elements.

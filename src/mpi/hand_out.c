@@ -40,14 +40,14 @@ typedef struct leader {
     size_t record_size;
 } leader;
 
-static void answer(leader *self, int follower, int64_t number, follower_state next)
+static void answer_follower(leader *self, int follower, int64_t number, follower_state next)
 {
     MPI_Send(&number, 1, MPI_INT64_T, follower, TAG_NUMBER, MPI_COMM_WORLD);
     self->state[follower] = next;
 }
 
 // Takes in and keeps what has come; returns how many messages there were.
-static int receive(leader *self)
+static int receive_records(leader *self)
 {
     int received = 0;
     for (;;) {
@@ -73,9 +73,9 @@ static void answer_all(leader *self)
         if (self->state[i] == ASKING) {
             int64_t number = ledger_next(self->ledger);
             if (number != LEDGER_WAIT)
-                answer(self, i, number, number == DISMISSED ? GONE : RUNNING);
-        } else if (self->state[i] == RUNNING && !ledger_goes_on(self->ledger)) {
-            answer(self, i, DISMISSED, SENT_HOME);
+                answer_follower(self, i, number, number == DISMISSED ? GONE : RUNNING);
+        } else if (self->state[i] == RUNNING && !ledger_continues(self->ledger)) {
+            answer_follower(self, i, DISMISSED, SENT_HOME);
         }
     }
 }
@@ -88,11 +88,11 @@ static bool all_are_gone(const leader *self)
     return true;
 }
 
-static void serve(leader *self)
+static void serve_followers(leader *self)
 {
     patience waiting = {MPI_Wtime()};
     while (!all_are_gone(self)) {
-        if (receive(self) > 0)
+        if (receive_records(self) > 0)
             waiting.since = MPI_Wtime();
         else
             pause_a_little(&waiting);
@@ -117,7 +117,7 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
     ledger_open(&ledger, study, &place, options, counts, error);
     // MPI is this thread's; alone, or without a second one, it runs samples after it has served
     bool second = all.processes > 1 && worker_start(&worker, &ledger) == 0;
-    serve(&all);
+    serve_followers(&all);
     if (second)
         pthread_join(worker, NULL);
     worker_run_all(&ledger);
@@ -142,7 +142,7 @@ typedef struct follower {
     bool sent_home;
 } follower;
 
-// Whether the sample that runs is still wanted.
+// Whether the sample that runs is still requested.
 static bool is_wanted(void *argument)
 {
     const double often = 0.02; // [s]
@@ -156,7 +156,7 @@ static bool is_wanted(void *argument)
 }
 
 // Sends a record and waits for the number that answers it.
-static int64_t send(const study_record *record)
+static int64_t send_record(const study_record *record)
 {
     int64_t number;
     MPI_Send(record, (int)record_size(&record->shape), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
@@ -176,11 +176,11 @@ void mpi_study_follow(const ld_study *study, bool (*go_on)(void *), void *self)
     if (status) {
         study_record failed = {.outcome = status};
         snprintf(failed.reason, sizeof failed.reason, "%s", error.text);
-        while (send(&failed) != DISMISSED)
+        while (send_record(&failed) != DISMISSED)
             ;
         return;
     }
-    for (int64_t number; (number = send(worker.record)) != DISMISSED;)
+    for (int64_t number; (number = send_record(worker.record)) != DISMISSED;)
         worker_run(&worker, number, is_wanted, &of);
     worker_free(&worker);
 }

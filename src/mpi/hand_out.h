@@ -6,7 +6,7 @@
 #include "launchdyn/study.h"
 
 // The first process, like ld_study_run(); `options` are the folder's and the user's, shards and
-// threads are not looked at. One thread serves the others, another runs samples.
+// threads are not checked. One thread serves the others, another runs samples.
 ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_study_options *options,
                          ld_study_counts *counts, ld_error *error);
 

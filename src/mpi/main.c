@@ -82,16 +82,16 @@ static int read_everywhere(const char *file, char **sets, int process, ld_study 
     return EXIT_INPUT;
 }
 
-static int lead(const ld_study *study, const study_wishes *wishes)
+static int lead_study(const ld_study *study, const study_wishes *wishes)
 {
     return study_run_all(study, wishes, mpi_study_lead);
 }
 
-static int follow(const ld_study *study)
+static int follow_study(const ld_study *study)
 {
     run_progress progress;
     progress_start(&progress, true);
-    mpi_study_follow(study, progress_go_on, &progress);
+    mpi_study_follow(study, progress_resume, &progress);
     return 0;
 }
 
@@ -106,13 +106,13 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
     if (!code)
         code = study_take_notes(study, wishes);
     if (!code)
-        code = process == 0 ? lead(study, wishes) : follow(study);
+        code = process == 0 ? lead_study(study, wishes) : follow_study(study);
     ld_study_free(study);
     return code;
 }
 
-// Whether help alone is asked for, which wants no MPI: study --help, --help, or help --man, which
-// prints the manual page.
+// Whether help alone is asked for, which requires no MPI: study --help, --help, or help --man,
+// which prints the manual page.
 static bool asks_for_help(int argc, char **argv)
 {
     const char *first = argc > 1 ? argv[1] : "", *second = argc > 2 ? argv[2] : "";
@@ -178,5 +178,5 @@ int main(int argc, char **argv)
 {
     if (asks_for_help(argc, argv))
         return print_help(argc, argv);
-    return command_apart(take_part, &(program_call){argc, argv});
+    return command_in_child(take_part, &(program_call){argc, argv});
 }

@@ -115,7 +115,7 @@ void quantity_text(const char *text, quantity_each each, int item, const quantit
 }
 
 // Leaves groups of which there is nothing.
-static void settle(quantity_walk *walk)
+static void skip_absent(quantity_walk *walk)
 {
     const quantity_table *table = walk->table;
     while (walk->at_group < table->groups &&
@@ -131,7 +131,7 @@ static void settle(quantity_walk *walk)
 quantity_walk quantity_first(const quantity_table *table, const quantity_things *things)
 {
     quantity_walk walk = {.table = table, .things = things};
-    settle(&walk);
+    skip_absent(&walk);
     return walk;
 }
 
@@ -141,7 +141,7 @@ void quantity_next(quantity_walk *walk)
         walk->at_row = 0;
         walk->item++;
     }
-    settle(walk);
+    skip_absent(walk);
 }
 
 quantity_walk quantity_find(const quantity_table *table, const quantity_things *things,
@@ -225,7 +225,7 @@ void quantity_archive(const quantity_table *table, const quantity_things *things
 // ---- columns ----
 
 // The text as it stands, or with the name of which, written at *room, which is moved on.
-static const char *say(const char *text, const quantity_walk *at, char **room)
+static const char *text_of(const char *text, const quantity_walk *at, char **room)
 {
     if (!strstr(text, "%s"))
         return text;
@@ -258,9 +258,9 @@ static void add_columns(quantity_columns *self, const quantity_part *part,
         self->cell[self->count] =
             (quantity_cell){part->offset + offset, where ? part->offset + where : 0};
         self->column[self->count++] =
-            (ld_column){.name = say(at.row->name, &at, room),
+            (ld_column){.name = text_of(at.row->name, &at, room),
                         .unit = at.row->unit,
-                        .description = say(at.row->description, &at, room)};
+                        .description = text_of(at.row->description, &at, room)};
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/suggestion.h"
 
-static void settle(quantity_walk *walk)
+static void skip_unstudied(quantity_walk *walk)
 {
     while (walk->row && !walk->row->studied)
         quantity_next(walk);
@@ -13,14 +13,14 @@ static void settle(quantity_walk *walk)
 quantity_walk study_result_first(const quantity_things *things)
 {
     quantity_walk walk = quantity_first(&rocket_quantities, things);
-    settle(&walk);
+    skip_unstudied(&walk);
     return walk;
 }
 
 void study_result_next(quantity_walk *walk)
 {
     quantity_next(walk);
-    settle(walk);
+    skip_unstudied(walk);
 }
 
 int study_result_count(const quantity_things *things)

@@ -155,7 +155,7 @@ typedef struct ld_rocket_summary {
     ld_final_state final;
 } ld_rocket_summary;
 
-// exit_error.relative above which the rates at an exit are worth a note.
+// exit_error.relative above which the rates at an exit are worth a warning.
 static const double EXIT_ERROR_NOTED = 0.01;
 
 // Whether a direction of that pitch [rad] in the ground frame lies within 10 deg of the vertical.
@@ -197,7 +197,7 @@ typedef struct ld_equilibrium_summary {
     double residual;                       ///< [m/s2, rad/s2] largest acceleration at rest
     bool rests_elsewhere;                  ///< the rocket has another rest in its guide
     double taken[4], other[4];             ///< [m, rad] y_S, z_S, psi, theta of both
-    int wheel_count;                       ///< 0: the base is no vehicle
+    int wheel_count;                       ///< 0: the base is not a vehicle
     struct {
         double tyre_force;      ///< [N] vertical
         double tyre_deflection; ///< [m]

@@ -33,7 +33,7 @@ static ld_status read_history_file(report_source *source, const char *path, ld_e
 }
 
 // Reads the history, of a folder in which it is not damaged, where there is one. LD_ERR_INPUT, with
-// a note; LD_ERR_FILE, LD_ERR_MEMORY.
+// a warning; LD_ERR_FILE, LD_ERR_MEMORY.
 static ld_status read_history(report_source *source, const char *folder, ld_error *error)
 {
     char path[REPORT_PATH_SIZE];
@@ -67,7 +67,7 @@ static void take_summary(report_source *source, manifest *found)
                          source->summary ? "The files cannot be verified" : "No summary", doubt);
 }
 
-// Notes which files are damaged, of which the history is not to be read. LD_ERR_INPUT with the
+// Records which files are damaged, of which the history is not to be read. LD_ERR_INPUT with the
 // first sentence where summary.json or another is; LD_ERR_FILE, LD_ERR_MEMORY.
 static ld_status find_damage(report_source *source, const char *folder, const manifest *found,
                              bool *history, ld_error *first)
@@ -156,9 +156,9 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     join(usual, folder, "report.html");
     ld_error damage;
     ld_status found = report_read_folder(source, folder, &damage);
-    bool broken = found && found != LD_ERR_INPUT; // the system, not the folder
-    ld_status status = broken ? ld_fail(error, found, "%s", damage.text)
-                              : report_add_replay(&source->history, error);
+    bool report_broken = found && found != LD_ERR_INPUT; // the system, not the folder
+    ld_status status = report_broken ? ld_fail(error, found, "%s", damage.text)
+                                     : report_add_replay(&source->history, error);
     if (!status && !source->has_history && !source->summary)
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);

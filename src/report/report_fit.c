@@ -27,7 +27,7 @@ static ld_status make_page(const report_page *self, const report_detail *detail,
 
 // All rows in the tube and else those that a pixel of 4000 needs; a pixel in the tube too; a pixel
 // of what curves are in all the run, not in each phase; more pixels.
-static void coarsen(report_detail *detail)
+static void coarsen_detail(report_detail *detail)
 {
     if (detail->whole || detail->whole_tube) {
         detail->whole_tube = detail->whole;
@@ -60,7 +60,7 @@ static ld_status make_page_that_fits(const report_page *self, ld_report *report,
         if (detail.pixel > 0.1)
             return ld_fail(error, LD_ERR_INPUT, "the results are too many for a report of %d bytes",
                            REPORT_BYTES);
-        coarsen(&detail);
+        coarsen_detail(&detail);
     }
 }
 

@@ -47,7 +47,7 @@ static const char *title_of(const report_source *source)
     return title && *title ? title : "A run of launchdyn";
 }
 
-// Notes on what the folder holds, then those on its scenario, as `check` prints them.
+// Warnings on what the folder holds, then those on its scenario, as `check` prints them.
 static void write_notes(FILE *json, const report_source *source)
 {
     const ld_origin *origin = &source->origin;

@@ -21,7 +21,7 @@ typedef struct report_source {
     size_t summary_length;
     bool has_origin;
     ld_origin origin;
-    ld_report *report; // takes notes
+    ld_report *report; // takes warnings
 } report_source;
 
 // How finely curves are kept.
@@ -29,7 +29,7 @@ typedef struct report_detail {
     bool whole, whole_tube; // every row; every row while a rocket is in the tube
     double pixel;           // elsewhere a curve is moved by this share of its span, at most,
     bool over_all;          // of that over all rows, not in the phase of the run at hand
-    bool figures_alone;     // without what the replay wants besides
+    bool figures_alone;     // without what the replay requires besides
 } report_detail;
 
 // A page of runs, and the JSON that it holds, at some detail.
@@ -48,7 +48,8 @@ ld_status report_write_as_fits(const report_page *page, const char *file, ld_rep
                                ld_error *error);
 
 // Reads what is whole in a folder of results. LD_ERR_INPUT, with what is damaged, where something
-// is; LD_ERR_FILE, LD_ERR_MEMORY. `source` is zero but for who takes notes; to be freed either way.
+// is; LD_ERR_FILE, LD_ERR_MEMORY. `source` is zero but for who takes warnings; to be freed either
+// way.
 ld_status report_read_folder(report_source *source, const char *folder, ld_error *error);
 void report_free_source(report_source *source);
 
@@ -63,10 +64,10 @@ bool report_is_flight(const history_data *history);
 ld_status report_write_table(FILE *json, const history_data *history, int rocket,
                              const report_detail *detail, ld_error *error);
 
-// Whether a history has what the replay wants.
+// Whether a history has what the replay requires.
 bool report_has_replay(const history_data *history);
 
-// Adds the columns that the replay wants and the history lacks, where there is a replay:
+// Adds the columns that the replay requires and the history lacks, where there is a replay:
 // "replay.x", ".y", ".z" [m], ".rx", ".ry", ".rz" [rad], place and rotation vector of the tube's
 // frame R against the undeformed tube, in its axes.
 ld_status report_add_replay(history_data *history, ld_error *error);

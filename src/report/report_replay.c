@@ -1,4 +1,4 @@
-// What the replay of a launch wants beside what the plots show: where the tube is against its
+// What the replay of a launch requires beside what the plots show: where the tube is against its
 // undeformed place, and the launcher's geometry.
 #include <math.h>
 #include <stdlib.h>

@@ -19,13 +19,13 @@ typedef struct report_run {
 typedef struct report_runs {
     int count;
     report_run run[REPORT_RUNS];
-    ld_report *report; // takes the notes of all
+    ld_report *report; // takes the warnings of all
     ld_error problem;  // the first folder that is damaged or holds nothing
 } report_runs;
 
 // ---- the results
 
-// A run without anything to show is noted and left out. LD_ERR_MEMORY.
+// A run without anything to show is left out with a warning. LD_ERR_MEMORY.
 static ld_status add_run(report_runs *self, const char *folder, ld_error *error)
 {
     report_run *run = &self->run[self->count];

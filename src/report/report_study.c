@@ -21,7 +21,7 @@ static void point_name(const study_data *data, const study_point *point, char *n
     }
 }
 
-// Tells a series from others with its label: "salvo (2)".
+// Distinguishes a series with its label: "salvo (2)".
 static void number_label(const study_source *source, study_series *series)
 {
     size_t length = strlen(series->label);
@@ -53,7 +53,7 @@ static void add_series(study_source *source, const study_data *data, const char 
     }
 }
 
-// LD_ERR_FILE, LD_ERR_MEMORY: one could not be read; what is none, or damaged, is noted.
+// LD_ERR_FILE, LD_ERR_MEMORY: one could not be read; what is none, or damaged, gives a warning.
 static ld_status open_studies(study_source *source, const char *const *folder, size_t count,
                               ld_error *error)
 {
@@ -141,7 +141,7 @@ static ld_status make_page_that_fits(study_source *source, char **text, size_t *
         // said again by the next one
         source->report->note_count = notes;
         for (int i = 0; i < source->series_count; i++)
-            source->series[i].broken = false;
+            source->series[i].report_broken = false;
     }
 }
 

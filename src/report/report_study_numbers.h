@@ -15,7 +15,7 @@ typedef struct study_bins {
 } study_bins;
 
 // Bins for values, each series' sorted: the width of Freedman and Diaconis (2 IQR n^(-1/3)) for the
-// series that wants the finest, at most REPORT_BINS. count 0: there are no values.
+// series that requires the finest, at most REPORT_BINS. count 0: there are no values.
 study_bins study_choose_bins(const double *const *sorted, const size_t *count, int series);
 // How many of the values lie in each bin; the last one has its upper end too.
 void study_fill_bins(const study_bins *bins, const double *sorted, size_t count, long *in_bin);

@@ -6,7 +6,7 @@
 
 #include "report/report_study_source.h"
 
-// Writes all that the page shows as JSON; notes what cannot be read.
+// Writes all that the page shows as JSON; records what cannot be read.
 // @return LD_OK, LD_ERR_MEMORY
 ld_status study_write_data(FILE *json, study_source *source);
 

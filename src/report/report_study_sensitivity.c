@@ -7,7 +7,7 @@
 #include "results/json_text.h"
 #include "studies/statistics/sensitivity.h"
 
-// The most wanted first: of many series and factors there is no room for all.
+// The most requested first: of many series and factors there is no room for all.
 static const char *const results[] = {
     "since_ignition.pitch",
     "since_ignition.yaw",

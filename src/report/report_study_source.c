@@ -14,10 +14,10 @@ void study_read(study_source *source, study_series *series, const study_column *
 {
     ld_error error;
     if (!study_data_read(series->data, series->point, column, columns, &series->values, &error) ||
-        series->broken)
+        series->report_broken)
         return;
     char what[128];
-    series->broken = true;
+    series->report_broken = true;
     snprintf(what, sizeof what,
              "%.60s is damaged, the numbers are of what could be read: ", series->label);
     study_take_problem(source, what, &error);

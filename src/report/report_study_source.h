@@ -16,7 +16,7 @@ typedef struct study_series {
     const study_point *point;
     char label[256];
     study_values values; // of the results at hand
-    bool broken;         // said already
+    bool report_broken;  // said already
 } study_series;
 
 typedef struct study_source {
@@ -29,11 +29,11 @@ typedef struct study_source {
     study_series series[REPORT_SERIES];
     const char *measured; // file with launches to lay beside, or NULL
     measured launches;    // what it holds
-    ld_report *report;    // takes notes
+    ld_report *report;    // takes warnings
     ld_error problem;     // what could not be read, the first; status 0: all could
 } study_source;
 
-// Notes what could not be read: `what` it is about, and why.
+// Records what could not be read: `what` it is about, and why.
 void study_take_problem(study_source *source, const char *what, const ld_error *error);
 
 // Reads columns of a series; of a broken one what can be read, which is said once.

@@ -19,7 +19,7 @@ static void write_count(FILE *bytes, size_t value)
 }
 
 // Bits of a single-precision number, so that larger numbers have larger integers.
-static uint32_t ordered(double value)
+static uint32_t order_bits(double value)
 {
     float single = isnan(value) ? NAN : (float)value;
     uint32_t bits;
@@ -161,9 +161,9 @@ static double bound_of(const thinned *table, const segment *part, size_t column)
     return part->whole ? 0 : table->detail->pixel * height_of(table, part, column);
 }
 
-// Marks the rows that one column needs: each stretch with values is thinned by itself, and the
+// Marks the rows that one column needs: each stretch with values is thinned on its own, and the
 // first row without a value keeps the gap.
-static void thin(const thinned *table, const segment *part, size_t column, char *keep)
+static void thin_column(const thinned *table, const segment *part, size_t column, char *keep)
 {
     size_t rows = part->last - part->first + 1;
     const double *t = table->t + part->first, *y = values_of(table, column) + part->first;
@@ -244,7 +244,7 @@ static void write_values(const thinned *table, const segment *part, size_t colum
         if (!keep[i])
             continue;
         double value = y[i] - offset;
-        uint32_t now = ordered(step > 0 ? step * nearbyint(value / step) : value);
+        uint32_t now = order_bits(step > 0 ? step * nearbyint(value / step) : value);
         table->value[count++] = folded(now - 2 * before[0] + before[1]);
         before[1] = before[0];
         before[0] = now;
@@ -261,7 +261,7 @@ static size_t thin_all(const thinned *table, const segment *part)
     memset(table->any, 0, rows);
     for (size_t c = 0; c < table->columns; c++) {
         char *keep = table->keep + c * table->history->rows;
-        thin(table, part, c, keep);
+        thin_column(table, part, c, keep);
         for (size_t i = 0; i < rows; i++)
             table->any[i] |= keep[i];
     }

@@ -82,7 +82,7 @@ static void turn_open(turning *self, bool array)
 }
 
 // Takes one event; false where it is none of a printed scenario.
-static bool turn(turning *self, const yaml_event_t *event)
+static bool turn_event(turning *self, const yaml_event_t *event)
 {
     const char *text = (const char *)event->data.scalar.value;
     bool value = self->level >= 0 && (self->has_key || self->array[self->level]);
@@ -128,7 +128,7 @@ static bool turn_text(json_writer *json, const char *text, size_t length)
         if (!good)
             break;
         more = event.type != YAML_STREAM_END_EVENT;
-        good = turn(&self, &event);
+        good = turn_event(&self, &event);
         yaml_event_delete(&event);
     }
     yaml_parser_delete(&parser);

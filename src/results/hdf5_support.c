@@ -82,7 +82,7 @@ static herr_t see_link(hid_t group, const char *name, const H5L_info_t *info, vo
 hid_t hdf5_open(const char *path)
 {
     enum { STEP = 1 << 20 };
-    // HDF5 does not tell why a file cannot be opened in this way
+    // HDF5 does not say why a file cannot be opened in this way
     int there = open(path, O_RDONLY | O_CLOEXEC);
     if (there < 0) {
         why.number = errno;
@@ -250,7 +250,7 @@ bool hdf5_write_document(hid_t group, const char *key, const char *name, const c
 
 enum { LONGEST_STRING = 1 << 28 };
 
-// Room for one of this type and a zero after it; NULL: it is no text of fixed length.
+// Room for one of this type and a zero after it; NULL: it is not text of fixed length.
 static char *room_for(hid_t type, hid_t space)
 {
     bool fine = type >= 0 && space >= 0 && H5Tget_class(type) == H5T_STRING &&

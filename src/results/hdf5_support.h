@@ -7,7 +7,7 @@
 
 #include "launchdyn/status.h"
 
-// HDF5 prints its error stack unless told not to; the setting before is put back at the end. What
+// HDF5 prints its error stack unless asked not to; the setting before is put back at the end. What
 // has no memory meanwhile is seen in that stack wherever it was, for HDF5 takes what cannot be
 // looked up for what is not there, and where `status` is a failure in errno too: then the end
 // returns LD_ERR_MEMORY in place of `status`.

@@ -82,7 +82,7 @@ static bool read_columns(hid_t group, history_data *history)
     return fine;
 }
 
-// An attribute of a rocket that tells when a parachute has opened.
+// An attribute of a rocket that says when a parachute has opened.
 static herr_t read_opening(hid_t rocket, const char *attribute, const H5A_info_t *unused,
                            void *into)
 {
@@ -201,7 +201,7 @@ static htri_t open_rocket(hid_t file, int number, hid_t *rocket)
     return *rocket >= 0 ? 1 : -1;
 }
 
-// What the file tells of each rocket, flown or not.
+// What the file reports of each rocket, flown or not.
 static bool read_rockets(hid_t file, history_data *history)
 {
     hid_t rocket;

@@ -84,7 +84,7 @@ static bool is_sealed(const manifest *self)
 
 // ---- what it says, by SQLite's reader of JSON
 
-// What is wrong with the text ?1, in a row; none: nothing is. Of what is no JSON the first one
+// What is wrong with the text ?1, in a row; none: nothing is. Of what is not JSON the first one
 // makes an error (json_valid() says so of anything where there is no memory).
 static const char *const wrongs[] = {
     "SELECT '\"' || key || '\" is missing, or something else' FROM json_each("
@@ -105,7 +105,7 @@ static const char *const wrongs[] = {
     " WHERE json_extract(?1, '$.format') <> " MANIFEST_FORMAT,
 };
 
-static sqlite3_stmt *ask(sqlite3 *reader, const char *query, const manifest *self)
+static sqlite3_stmt *prepare_query(sqlite3 *reader, const char *query, const manifest *self)
 {
     sqlite3_stmt *answer = NULL;
     if (sqlite3_prepare_v2(reader, query, -1, &answer, NULL) == SQLITE_OK)
@@ -117,7 +117,7 @@ static sqlite3_stmt *ask(sqlite3 *reader, const char *query, const manifest *sel
 static int find_wrong(sqlite3 *reader, manifest *self)
 {
     for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; i++) {
-        sqlite3_stmt *answer = ask(reader, wrongs[i], self);
+        sqlite3_stmt *answer = prepare_query(reader, wrongs[i], self);
         int result = answer ? sqlite3_step(answer) : sqlite3_errcode(reader);
         if (result == SQLITE_ROW)
             snprintf(self->problem, sizeof self->problem, "summary.json is damaged: %.200s",
@@ -142,10 +142,11 @@ static void take_file(sqlite3_stmt *row, manifest *self)
 
 static int read_files(sqlite3 *reader, manifest *self)
 {
-    sqlite3_stmt *row = ask(reader,
-                            "SELECT json_extract(value, '$.name'), json_extract(value, '$.size'),"
-                            " json_extract(value, '$.digest') FROM json_each(?1, '$.files')",
-                            self);
+    sqlite3_stmt *row =
+        prepare_query(reader,
+                      "SELECT json_extract(value, '$.name'), json_extract(value, '$.size'),"
+                      " json_extract(value, '$.digest') FROM json_each(?1, '$.files')",
+                      self);
     int result = row ? SQLITE_ROW : sqlite3_errcode(reader);
     while (result == SQLITE_ROW && (result = sqlite3_step(row)) == SQLITE_ROW)
         take_file(row, self);
@@ -156,7 +157,7 @@ static int read_files(sqlite3 *reader, manifest *self)
 // Leaves of the text what is to be shown.
 static int cut_text(sqlite3 *reader, manifest *self)
 {
-    sqlite3_stmt *row = ask(
+    sqlite3_stmt *row = prepare_query(
         reader, "SELECT json_remove(?1, '$.scenario', '$.source', '$.files', '$.digest')", self);
     int result = row ? sqlite3_step(row) : sqlite3_errcode(reader);
     const char *shown = result == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
@@ -194,7 +195,7 @@ static ld_status read_json(manifest *self, ld_error *error)
 // ---- reading
 
 // LD_OK too where self->problem says what is wrong; LD_ERR_MEMORY.
-static ld_status judge(manifest *self, ld_error *error)
+static ld_status judge_manifest(manifest *self, ld_error *error)
 {
     bool sealed = had_seal(self);
     if (sealed && !is_sealed(self)) {
@@ -225,7 +226,7 @@ ld_status manifest_read(const char *folder, manifest *self, ld_error *error)
     if (status == LD_ERR_INPUT)
         snprintf(self->problem, sizeof self->problem, "summary.json %.200s", problem.text);
     else if (!status)
-        status = judge(self, &problem);
+        status = judge_manifest(self, &problem);
     if (self->state != MANIFEST_DAMAGED)
         return LD_OK;
     manifest_free(self);

@@ -60,7 +60,8 @@ const char *manifest_doubt(const manifest *self);
 ld_status manifest_check(const manifest *self, const char *folder, int file, ld_error *error);
 
 // The same of history.h5, before it is opened, of a folder whose summary.json is not damaged; the
-// sentence begins with the folder. `doubt` (NULL: not wanted) becomes why it is not known, or "".
+// sentence begins with the folder. `doubt` (NULL: not requested) becomes why it is not known, or
+// "".
 ld_status manifest_check_history(const char *folder, char *doubt, size_t size, ld_error *error);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct gathering {
     bool fine;
 } gathering;
 
-static void gather(void *self, const char *name, const char *text)
+static void gather_text(void *self, const char *name, const char *text)
 {
     gathering *to = self;
     to->fine = to->fine && origin_add_fact(to->origin, name, text);
@@ -44,7 +44,7 @@ ld_status ld_origin_of(const ld_model *model, ld_origin *origin, ld_error *error
     gathering to = {origin, true};
     *origin = (ld_origin){.point = model->point, .sample = model->sample};
     origin->source = source_hold(model->source);
-    program_describe(gather, &to);
+    program_describe(gather_text, &to);
     FILE *stream = memory_stream(&origin->scenario, &length);
     if (stream)
         ld_model_print(model, stream);

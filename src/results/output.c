@@ -39,8 +39,8 @@ struct ld_output {
     file_identity made[FILES]; // under part[]
     char *report;              // what launchdyn report made of an earlier run
     history_hdf5 *hdf5;
-    history_csv *csv;     // NULL: not wanted
-    history_csv *flights; // NULL: not wanted, or none has flown on
+    history_csv *csv;     // NULL: not requested
+    history_csv *flights; // NULL: not requested, or none has flown on
     kml_file *map;        // NULL: no place on the Earth is given, or none has flown on
     double flying;        // number of the rocket whose flight's rows come; 0: the launcher's
     ld_sink sink;
@@ -284,7 +284,7 @@ static ld_status first_failure(ld_status before, ld_status after)
     return before ? before : after;
 }
 
-// Closes the histories; `summary` NULL: they are not wanted any more.
+// Closes the histories; `summary` NULL: they are not requested any more.
 static ld_status close_histories(ld_output *output, const ld_summary *summary, ld_error *error)
 {
     ld_status status = LD_OK;
@@ -320,7 +320,7 @@ static ld_status put_in_place(ld_output *output, ld_error *error)
     return status;
 }
 
-// Size and digest of a file of this run, which nobody has removed or replaced meanwhile.
+// Size and digest of a file of this run, which no one has removed or replaced meanwhile.
 static ld_status measure_made(const ld_output *output, int file, manifest_file *found,
                               ld_error *error)
 {

@@ -3,7 +3,7 @@
 #define LD_RESULTS_PROGRAM_H
 
 // The state of the sources as git describes it, of the file that a build makes; "unknown" where
-// they are no checkout.
+// they are not a checkout.
 extern const char program_commit[];
 
 // Hands out names and texts, version first, libraries last; they are to be copied.

@@ -41,7 +41,7 @@ static void open_segment(json_writer *json, const char *path, size_t at, size_t 
 
 // Closes what is not of the path, opens what it has besides; `inside` is the object or list that
 // numbers stand in, "" or with a point.
-static void enter(json_writer *json, char inside[QUANTITY_NAME], const char *path)
+static void enter_object(json_writer *json, char inside[QUANTITY_NAME], const char *path)
 {
     size_t same = 0;
     for (size_t i = 0; path[i] && path[i] == inside[i]; i++)
@@ -69,7 +69,7 @@ static void write_number(json_writer *json, char inside[QUANTITY_NAME], const qu
     if (in_list)
         strcat(path, ".");
     snprintf(in, sizeof in, "%.*s", (int)(in_list ? strlen(path) : (size_t)(key - path)), path);
-    enter(json, inside, in);
+    enter_object(json, inside, in);
     double value = quantity_value(at, from);
     if (at->row->at.type == QUANTITY_NUMBER)
         json_number(json, in_list ? NULL : key, value);
@@ -85,7 +85,7 @@ static void write_numbers(json_writer *json, const quantity_table *table,
     for (quantity_walk at = quantity_first(table, things); at.row; quantity_next(&at))
         if ((things->launcher || !at.group->launch) && quantity_is_there(at.group, from))
             write_number(json, inside, &at, from);
-    enter(json, inside, "");
+    enter_object(json, inside, "");
 }
 
 static void write_rockets(json_writer *json, const ld_summary *summary,

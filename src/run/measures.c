@@ -51,7 +51,7 @@ const char *quantity_unit(const quantity_walk *at)
     return at->row->unit ? at->row->unit : measure_unit(at->things->model, at->item);
 }
 
-// What a column is looked for among.
+// What a column is searched among.
 typedef struct column_search {
     quantity_things things;
     const quantity_table *table[TABLES];
@@ -102,7 +102,7 @@ static void nearest_column(const column_search *search, const char *name, char n
 
 // ---- instants
 
-static int foremost(const ld_rocket *rocket)
+static int foremost_adaptor(const ld_rocket *rocket)
 {
     int front = 0;
     for (int i = 1; i < rocket->adaptor_count; i++)
@@ -114,7 +114,7 @@ static int foremost(const ld_rocket *rocket)
 // Of exactly three adaptors the one that is neither the front nor the rear one.
 static int middle(const ld_rocket *rocket)
 {
-    return rocket->adaptor_count == 3 ? 3 - foremost(rocket) : -1;
+    return rocket->adaptor_count == 3 ? 3 - foremost_adaptor(rocket) : -1;
 }
 
 typedef struct instant_row {
@@ -135,7 +135,7 @@ static int list_tube_instants(const ld_model *model, char exits[LD_MAX_ADAPTORS]
     row[count++] = (instant_row){"t_ignition", {INSTANT_IGNITION, 0}};
     if (rocket->lock.present)
         row[count++] = (instant_row){"t_release", {INSTANT_RELEASE, 0}};
-    row[count++] = (instant_row){"t_front", {INSTANT_EXIT, foremost(rocket)}};
+    row[count++] = (instant_row){"t_front", {INSTANT_EXIT, foremost_adaptor(rocket)}};
     if (middle(rocket) > 0)
         row[count++] = (instant_row){"t_middle", {INSTANT_EXIT, middle(rocket)}};
     row[count++] = (instant_row){"t_rear", {INSTANT_EXIT, 0}};
@@ -267,7 +267,7 @@ static bool check_instant(const measure_check *check, const char *key, const cha
 }
 
 // Whether the run begins with the first ignition.
-static bool starts_lit(const ld_model *model)
+static bool starts_ignited(const ld_model *model)
 {
     return model_firing_count(model) > 0 &&
            !(0 - model_run(model)->lead_in < model_firing(model, 0)->at);
@@ -292,7 +292,7 @@ static void check_launch(const measure_check *check, const ld_measure *measure,
                          const quantity_group *group, measure_instant from, measure_instant to)
 {
     const char *ends = measure->take == LD_TAKE_VALUE ? "at" : "to";
-    if (from.kind == INSTANT_START && to.kind == INSTANT_IGNITION && starts_lit(check->model))
+    if (from.kind == INSTANT_START && to.kind == INSTANT_IGNITION && starts_ignited(check->model))
         refuse(check, ends,
                "the window never occurs: without run.lead_in the run begins with the ignition");
     else if (group && group->where.type != QUANTITY_NONE && to.kind == INSTANT_END)

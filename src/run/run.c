@@ -1,4 +1,4 @@
-// A run that is stepped: what is asked of it and told to it; launch.c takes its steps.
+// A run that is stepped: what is asked of it and reported to it; launch.c takes its steps.
 #include "run/run.h"
 
 #include <assert.h>
@@ -12,12 +12,12 @@
 #include "launch/launch.h"
 #include "launch/launch_archive.h"
 #include "launch/launch_base.h"
+#include "launch/launch_drive.h"
 #include "launch/launch_exit_error.h"
 #include "launch/launch_flights.h"
 #include "launch/launch_rows.h"
 #include "launch/launch_run.h"
 #include "launch/launch_summary.h"
-#include "launch/launch_told.h"
 #include "model/blocks/firing.h"
 #include "model/parts.h"
 #include "state/history.h"
@@ -56,7 +56,7 @@ static void run_free(ld_run *run)
 }
 
 // What ended the run, to the caller.
-static ld_status told(const ld_run *run, ld_error *error)
+static ld_status copy_error(const ld_run *run, ld_error *error)
 {
     if (run->status && error)
         *error = run->error;
@@ -77,7 +77,7 @@ static ld_status begin(const ld_simulation *simulation, const ld_run_options *op
         run->status =
             has_launch(run) ? launch_begin(run) : flight_alone_begin(simulation, &run->error);
     run->cpu += cpu_time_now() - start;
-    return told(run, error);
+    return copy_error(run, error);
 }
 
 ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *options, ld_run **out,
@@ -87,8 +87,8 @@ ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *op
     return begin(simulation, options, false, NULL, out, error);
 }
 
-ld_status run_begin_outside(const ld_simulation *simulation, const ld_run_options *options,
-                            ld_run **out, ld_error *error)
+ld_status run_begin_exchange(const ld_simulation *simulation, const ld_run_options *options,
+                             ld_run **out, ld_error *error)
 {
     return begin(simulation, options, true, NULL, out, error);
 }
@@ -96,23 +96,23 @@ ld_status run_begin_outside(const ld_simulation *simulation, const ld_run_option
 static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
 {
     if (run->status || !has_launch(run))
-        return told(run, error);
+        return copy_error(run, error);
     if (!(t >= run->t) && !launch_is_finished(run))
         return ld_fail(error, LD_ERR_INPUT,
                        "the run is at t = %.9g s and cannot continue to t = %.9g s", run->t, t);
     double start = cpu_time_now();
-    if (run->launch.launcher.base.kind->tell) // what it is told comes then
+    if (run->launch.launcher.base.kind->receive_frame) // what it receives comes then
         run->t_input = t;
     launch_advance(run, t, to_event);
     run->t_input = INFINITY;
     run->cpu += cpu_time_now() - start;
-    return told(run, error);
+    return copy_error(run, error);
 }
 
 ld_status ld_run_advance(ld_run *run, double t, ld_error *error)
 {
     ld_status status = advance(run, t, false, error);
-    run->event_told = run->event_count;
+    run->event_reported = run->event_count;
     return status;
 }
 
@@ -120,8 +120,8 @@ ld_status ld_run_advance_to_event(ld_run *run, double t, ld_event *next, ld_erro
 {
     ld_status status = advance(run, t, true, error);
     *next = (ld_event){.kind = LD_EVENT_NONE, .t = run->t};
-    if (!status && run->event_told < run->event_count && !run->ahead)
-        *next = run->event[run->event_told++];
+    if (!status && run->event_reported < run->event_count && !run->ahead)
+        *next = run->event[run->event_reported++];
     else if (!status && ld_run_is_finished(run))
         next->kind = LD_EVENT_END;
     return status;
@@ -137,25 +137,25 @@ bool ld_run_is_finished(const ld_run *run)
     return run->status || !has_launch(run) || launch_is_finished(run);
 }
 
-ld_status ld_run_tell_base(ld_run *run, const ld_base_frame *base, ld_error *error)
+ld_status ld_run_set_base(ld_run *run, const ld_base_frame *base, ld_error *error)
 {
     if (run->status)
-        return told(run, error);
+        return copy_error(run, error);
     if (ld_run_is_finished(run))
         return ld_fail(error, LD_ERR_INPUT,
                        "the launch is over: the base's motion can no longer be set");
     double start = cpu_time_now();
-    ld_status status = launch_tell_base(run, base, error);
+    ld_status status = launch_drive_base(run, base, error);
     run->cpu += cpu_time_now() - start;
-    return status ? status : told(run, error);
+    return status ? status : copy_error(run, error);
 }
 
-// ---- what it tells
+// ---- what it reports
 
 ld_status ld_run_row(ld_run *run, double *values, ld_error *error)
 {
     if (run->status)
-        return told(run, error);
+        return copy_error(run, error);
     if (!has_launch(run))
         return ld_fail(error, LD_ERR_INPUT, "a scenario of flight only cannot be stepped");
     history_row(&run->launch, run->t, run_present_state(run), run->energy_start, values);
@@ -188,7 +188,7 @@ ld_status ld_run_number(ld_run *run, const char *name, double *value, ld_error *
 ld_status ld_run_base_wrench(ld_run *run, ld_base_wrench *wrench, ld_error *error)
 {
     if (run->status)
-        return told(run, error);
+        return copy_error(run, error);
     if (!has_launch(run))
         return ld_fail(error, LD_ERR_INPUT, "a scenario of flight only has no base");
     return launch_wrench(run, run_present_state(run), wrench, error);
@@ -199,15 +199,15 @@ const ld_summary *ld_run_summary(const ld_run *run)
     return &run->summary;
 }
 
-// ---- what it is told
+// ---- what it receives
 
 ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
 {
     launch_state *launch = &run->launch;
     const ld_model *model = launch->model;
     if (run->status)
-        return told(run, error);
-    if (!has_launch(run) || launch_is_lit(launch) || run->t >= launch->t_ignition)
+        return copy_error(run, error);
+    if (!has_launch(run) || launch_is_ignited(launch) || run->t >= launch->t_ignition)
         return ld_fail(error, LD_ERR_INPUT, "no rocket waits for its ignition at t = %.9g s",
                        run->t);
     if (!(t >= run->t))
@@ -219,15 +219,15 @@ ld_status ld_run_ignite(ld_run *run, double t, ld_error *error)
         return ld_fail(error, LD_ERR_INPUT,
                        "at t = %.9g s rocket %d cannot be ignited: the next rocket is fired", t,
                        launch->current + 1);
-    // a step that is under way may go on beyond the ignition
-    if (launch_stand(run))
-        return told(run, error);
+    // a step that is under way may continue beyond the ignition
+    if (launch_find_rest(run))
+        return copy_error(run, error);
     launch->t_ignition = run->summary.rocket[launch->current].t_ignition = t;
     if (last && model_run(model)->end == LD_END_TIME)
         run->t_end = t + model_run(model)->end_time;
     if (t == run->t)
         launch_ignite(run);
-    return told(run, error);
+    return copy_error(run, error);
 }
 
 // ---- as bytes
@@ -238,7 +238,7 @@ ld_status ld_run_save(ld_run *run, void *bytes, size_t capacity, size_t *size, l
 {
     *size = 0;
     if (run->status)
-        return told(run, error);
+        return copy_error(run, error);
     if (!has_launch(run))
         return ld_fail(error, LD_ERR_INPUT, "a run of flight only cannot be saved");
     archive count = archive_save(NULL, 0), saved = archive_save(bytes, capacity);
@@ -286,7 +286,7 @@ static ld_status load_as(const ld_simulation *simulation, const ld_run_options *
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
     if (!run->status)
         run->status = load(run, bytes, size);
-    ld_status status = told(run, error);
+    ld_status status = copy_error(run, error);
     if (status) {
         run_free(run);
         *out = NULL;
@@ -300,8 +300,8 @@ ld_status ld_run_load(const ld_simulation *simulation, const ld_run_options *opt
     return load_as(simulation, options, false, bytes, size, out, error);
 }
 
-ld_status run_load_outside(const ld_simulation *simulation, const void *bytes, size_t size,
-                           ld_run **out, ld_error *error)
+ld_status run_load_exchange(const ld_simulation *simulation, const void *bytes, size_t size,
+                            ld_run **out, ld_error *error)
 {
     return load_as(simulation, NULL, true, bytes, size, out, error);
 }
@@ -310,7 +310,7 @@ ld_status run_load_outside(const ld_simulation *simulation, const void *bytes, s
 
 static ld_status end_early(ld_run *run)
 {
-    if (launch_stand(run))
+    if (launch_find_rest(run))
         return run->status;
     launch_write_last_row(run);
     return ld_fail(&run->error, LD_ERR_INTERRUPTED, "ended at t = %.6g s", run->t);
@@ -332,12 +332,12 @@ ld_status ld_run_end(ld_run *run, ld_summary *summary, ld_error *error)
     }
     if (summary)
         *summary = run->summary;
-    ld_status status = told(run, error);
+    ld_status status = copy_error(run, error);
     run_free(run);
     return status;
 }
 
-// Of a run that nobody steps, tells or saves.
+// Of a run that no one steps, reports or saves.
 static ld_status begin_exit_error(ld_run *run)
 {
     const launch_state *launch = &run->launch;

@@ -11,9 +11,9 @@ ld_status run_from(const ld_simulation *simulation, const struct launch_start *s
                    ld_summary *summary, ld_error *error);
 
 // ld_run_begin() and ld_run_load() of one whose steps are taken outside.
-ld_status run_begin_outside(const ld_simulation *simulation, const ld_run_options *options,
+ld_status run_begin_exchange(const ld_simulation *simulation, const ld_run_options *options,
+                             ld_run **out, ld_error *error);
+ld_status run_load_exchange(const ld_simulation *simulation, const void *bytes, size_t size,
                             ld_run **out, ld_error *error);
-ld_status run_load_outside(const ld_simulation *simulation, const void *bytes, size_t size,
-                           ld_run **out, ld_error *error);
 
 #endif

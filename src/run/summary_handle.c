@@ -96,7 +96,7 @@ typedef struct likely {
     char name[SUMMARY_NAME];
 } likely_name;
 
-static void offer(void *self, const ld_quantity *offered)
+static void offer_quantity(void *self, const ld_quantity *offered)
 {
     likely_name *likely = self;
     suggestion_offer(&likely->best, offered->name);
@@ -111,7 +111,7 @@ static ld_status refuse(const ld_summary *self, const char *name, ld_error *erro
     likely_name likely = {.best = suggestion_begin(name)};
     if (!self->model)
         return ld_fail(error, LD_ERR_INPUT, "the summary is empty: nothing has run");
-    ld_summary_each(self, offer, &likely);
+    ld_summary_each(self, offer_quantity, &likely);
     if (likely.best.name)
         return ld_fail(error, LD_ERR_INPUT, "there is no result \"%s\", did you mean \"%s\"?", name,
                        likely.name);

@@ -1,4 +1,4 @@
-// A vehicle alone: the base of a launcher, taken forward under the wrench that it is told.
+// A vehicle alone: the base of a launcher, taken forward under the given wrench.
 //
 // State: the base's | its works by kind of force | the work of the tube's wrench.
 #include "run/vehicle_run.h"
@@ -25,8 +25,8 @@ struct ld_vehicle_run {
     base_rest rest;
     int work_at, tube_work_at, state_count;
     held_wrench wrench; // of the tube, about T's origin, in T
-    double t_told;      // [s]
-    held_wrench before; // what it was before it was told there, and when it was told then
+    double t_set;       // [s]
+    held_wrench before; // what it was before it was given there, and when it was given then
     double t_before;
     double energy_start;
     integrator *integrator;
@@ -42,7 +42,7 @@ struct ld_vehicle_run {
     } latest;
 };
 
-static ld_status told(const ld_vehicle_run *self, ld_error *error)
+static ld_status copy_error(const ld_vehicle_run *self, ld_error *error)
 {
     if (self->status && error)
         *error = self->error;
@@ -59,10 +59,10 @@ static int evaluate(ld_vehicle_run *self, double t, const double *y)
         memcmp((const char *)self->latest.y, (const char *)y, size) == 0)
         return 0;
     base_load load = {.rest = self->rest};
-    held_wrench_at(&self->wrench, t - self->t_told, &load.force, &load.moment);
+    held_wrench_at(&self->wrench, t - self->t_set, &load.force, &load.moment);
     const base_system *base = &self->base;
     self->latest.known = false;
-    base->kind->place(base, t, y, &self->latest.tube, &self->latest.found);
+    base->kind->find_frame(base, t, y, &self->latest.tube, &self->latest.found);
     if (base->kind->dynamics->evaluate(base, &self->latest.found, &load, y, &self->latest.out))
         return -1;
     self->latest.known = true;
@@ -221,7 +221,7 @@ static ld_status begin(ld_vehicle_run *self, ld_error *error)
     if (status)
         return status;
     self->before = self->wrench;
-    self->t_told = self->t_before = t;
+    self->t_set = self->t_before = t;
     if (evaluate(self, t, y))
         return ld_fail(error, LD_ERR_NUMERIC, "the start at t = %.9g s has no solution", t);
     self->energy_start = mechanical_energy(self, y);
@@ -273,8 +273,8 @@ static ld_status go_to(ld_vehicle_run *self, double t)
     return status;
 }
 
-// What acts by itself at the present, as a digital loop does.
-static ld_status sample(ld_vehicle_run *self)
+// What acts on its own at the present, as a digital loop does.
+static ld_status sample_base(ld_vehicle_run *self)
 {
     const base_system *base = &self->base;
     double t = integrator_time(self->integrator), y[MOST_STATES];
@@ -299,7 +299,7 @@ ld_status ld_vehicle_run_advance(ld_vehicle_run *self, double t, ld_error *error
 {
     double now = integrator_time(self->integrator);
     if (self->status)
-        return told(self, error);
+        return copy_error(self, error);
     if (!(t >= now) || !isfinite(t))
         return ld_fail(error, LD_ERR_INPUT,
                        "the vehicle's run is at t = %.9g s and cannot continue to t = %.9g s", now,
@@ -307,47 +307,47 @@ ld_status ld_vehicle_run_advance(ld_vehicle_run *self, double t, ld_error *error
     while (!self->status && now < t) {
         self->status = go_to(self, next_stop(self, now, t));
         if (!self->status)
-            self->status = sample(self);
+            self->status = sample_base(self);
         now = integrator_time(self->integrator);
     }
-    return told(self, error);
+    return copy_error(self, error);
 }
 
-// ---- what it is told, and tells ----
+// ---- what it receives, and reports ----
 
-ld_status ld_vehicle_run_tell_wrench(ld_vehicle_run *self, const ld_base_wrench *wrench,
-                                     ld_error *error)
+ld_status ld_vehicle_run_set_wrench(ld_vehicle_run *self, const ld_base_wrench *wrench,
+                                    ld_error *error)
 {
     double t = integrator_time(self->integrator), sum = 0;
     if (self->status)
-        return told(self, error);
+        return copy_error(self, error);
     for (int i = 0; i < 3; i++)
         sum += 0 * wrench->force[i] + 0 * wrench->moment[i];
     if (sum != 0)
         return ld_fail(error, LD_ERR_INPUT, "the vehicle received a wrench that is not finite");
     base_frame tube;
     base_found unused;
-    self->base.kind->place(&self->base, t, integrator_state(self->integrator), &tube, &unused);
-    // told again at the same time, it was not told before
-    if (t == self->t_told) {
+    self->base.kind->find_frame(&self->base, t, integrator_state(self->integrator), &tube, &unused);
+    // set again at the same time, it was not reported before
+    if (t == self->t_set) {
         self->wrench = self->before;
     } else {
         self->before = self->wrench;
-        self->t_before = self->t_told;
+        self->t_before = self->t_set;
     }
     held_wrench_take(&self->wrench, m3_apply_transposed(tube.A, v3_from(wrench->force)),
                      m3_apply_transposed(tube.A, v3_from(wrench->moment)), t - self->t_before);
-    self->t_told = t;
+    self->t_set = t;
     self->latest.known = false;
     return LD_OK;
 }
 
 // Evaluates at the present.
-static ld_status look(ld_vehicle_run *self, ld_error *error)
+static ld_status evaluate_present(ld_vehicle_run *self, ld_error *error)
 {
     double t = integrator_time(self->integrator);
     if (self->status)
-        return told(self, error);
+        return copy_error(self, error);
     return evaluate(self, t, integrator_state(self->integrator))
                ? ld_fail(error, LD_ERR_NUMERIC,
                          "the equations of motion gave no finite result at t = %.9g s", t)
@@ -356,7 +356,7 @@ static ld_status look(ld_vehicle_run *self, ld_error *error)
 
 ld_status ld_vehicle_run_wrench(ld_vehicle_run *self, ld_base_wrench *wrench, ld_error *error)
 {
-    ld_status status = look(self, error);
+    ld_status status = evaluate_present(self, error);
     if (status)
         return status;
     v3_store(wrench->force, m3_apply(self->latest.tube.A, self->latest.force));
@@ -366,7 +366,7 @@ ld_status ld_vehicle_run_wrench(ld_vehicle_run *self, ld_base_wrench *wrench, ld
 
 ld_status ld_vehicle_run_frame(ld_vehicle_run *self, ld_base_frame *frame, ld_error *error)
 {
-    ld_status status = look(self, error);
+    ld_status status = evaluate_present(self, error);
     if (status)
         return status;
     const base_frame *tube = &self->latest.tube;
@@ -439,7 +439,7 @@ size_t ld_vehicle_run_columns(const ld_simulation *simulation, const ld_column *
 
 ld_status ld_vehicle_run_row(ld_vehicle_run *self, double *values, ld_error *error)
 {
-    ld_status status = look(self, error);
+    ld_status status = evaluate_present(self, error);
     if (status)
         return status;
     const double *y = integrator_state(self->integrator), *work = y + self->work_at;
@@ -478,7 +478,7 @@ static void archive_all(ld_vehicle_run *self, archive *bytes)
         archive_vector(bytes, &wrenches[i]->force_rate);
         archive_vector(bytes, &wrenches[i]->moment_rate);
     }
-    archive_double(bytes, &self->t_told);
+    archive_double(bytes, &self->t_set);
     archive_double(bytes, &self->t_before);
     archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_double(bytes, &self->energy_start);
@@ -491,7 +491,7 @@ ld_status ld_vehicle_run_save(ld_vehicle_run *self, void *bytes, size_t capacity
     const ld_model *model = self->system->model;
     *size = 0;
     if (self->status)
-        return told(self, error);
+        return copy_error(self, error);
     archive count = archive_save(NULL, 0), saved = archive_save(bytes, capacity);
     saved_state_head(&saved_run, model, &count, 0);
     archive_all(self, &count);

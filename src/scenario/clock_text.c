@@ -78,7 +78,7 @@ static double origin_of(const decimal *number, double per, double time)
 }
 
 // The time of the number less the origin.
-static double less(decimal number, double per, double factor, double origin)
+static double difference_of(decimal number, double per, double factor, double origin)
 {
     char text[CLOCK_TEXT];
     number.whole -= (uint64_t)origin * (uint64_t)per;
@@ -97,7 +97,7 @@ double clock_read(const char *text, double value, double factor, bool first, dou
     if (*origin == 0)
         return time;
     bool fits = exact && *origin * per < MOST && number.whole >= (uint64_t)(*origin * per);
-    time = fits ? less(number, per, factor, *origin) : time - *origin;
+    time = fits ? difference_of(number, per, factor, *origin) : time - *origin;
     // so near the next second that it is rounded to it
     if (first && time >= 1) {
         *origin += time;

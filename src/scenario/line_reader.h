@@ -1,4 +1,4 @@
-// The lines of a table's file, and where what is wrong with them is told.
+// The lines of a table's file, and where what is wrong with them is reported.
 #ifndef LD_SCENARIO_LINE_READER_H
 #define LD_SCENARIO_LINE_READER_H
 

@@ -69,7 +69,7 @@ static const char *base_word(const ld_model *model)
     return field_word_of(kind.row->words, (int)model->base.kind)->name;
 }
 
-static void tell_base(FILE *stream, const ld_model *model)
+static void describe_base(FILE *stream, const ld_model *model)
 {
     static const char *const looks[] = {
         [LD_LOOKS_PLAIN] = "", [LD_LOOKS_SHIP] = ", a ship", [LD_LOOKS_AIRCRAFT] = ", an aircraft"};
@@ -92,7 +92,7 @@ static void tell_base(FILE *stream, const ld_model *model)
 
 // ---- guide ----
 
-static void tell_section(FILE *stream, const ld_section *s, bool bore)
+static void describe_section(FILE *stream, const ld_section *s, bool bore)
 {
     fprintf(stream, "#   from %s:", METRES(s->from));
     if (bore)
@@ -111,7 +111,7 @@ static void tell_section(FILE *stream, const ld_section *s, bool bore)
 }
 
 // Where a point is across the guide: "80 mm below and 5 mm right of the line".
-static void tell_place(FILE *stream, const double at[2], const char *from)
+static void describe_position(FILE *stream, const double at[2], const char *from)
 {
     if (at[0] == 0 && at[1] == 0)
         fprintf(stream, "on");
@@ -123,23 +123,23 @@ static void tell_place(FILE *stream, const double at[2], const char *from)
     fprintf(stream, " the %s", from);
 }
 
-static void tell_surfaces(FILE *stream, const ld_guide *guide)
+static void describe_surfaces(FILE *stream, const ld_guide *guide)
 {
     for (int k = 0; k < guide->surface_count; k++) {
         const ld_surface *surface = &guide->surface[k];
         bool flat = surface->shape == LD_SURFACE_FLAT;
         fprintf(stream, "#   surface %s: %s, ", VISIBLE(surface->name), flat ? "flat" : "round");
-        tell_place(stream, surface->at, "line");
+        describe_position(stream, surface->at, "line");
         fprintf(stream, ", towards %s, gap %s\n", DEGREES(surface->normal),
                 MILLIMETRES(surface->gap));
     }
 }
 
-static void tell_slide(FILE *stream, const ld_guide *guide)
+static void describe_slide(FILE *stream, const ld_guide *guide)
 {
     if (guide->form == LD_GUIDE_T_SLOT) {
         fprintf(stream, "#   T-slot ");
-        tell_place(stream, guide->t_slot.at, "line");
+        describe_position(stream, guide->t_slot.at, "line");
         fprintf(stream, ", lips %s apart, gap %s, at the sides %s\n",
                 MILLIMETRES(guide->t_slot.lips), MILLIMETRES(guide->t_slot.gap),
                 MILLIMETRES(guide->t_slot.side_gap));
@@ -147,11 +147,11 @@ static void tell_slide(FILE *stream, const ld_guide *guide)
         fprintf(stream, "#   the first rail at %s, gap %s\n", DEGREES(guide->tower.first),
                 MILLIMETRES(guide->tower.gap));
     } else {
-        tell_surfaces(stream, guide);
+        describe_surfaces(stream, guide);
     }
 }
 
-static void tell_guide(FILE *stream, const ld_model *model)
+static void describe_guide(FILE *stream, const ld_model *model)
 {
     const ld_tubes *tubes = &model->tubes;
     const ld_guide *guide = &tubes->guide;
@@ -167,16 +167,16 @@ static void tell_guide(FILE *stream, const ld_model *model)
     fprintf(stream, ", %s%s long", count > 1 ? "each " : "", METRES(tubes->length));
     if (guide->present && (guide->line[0] != 0 || guide->line[1] != 0)) {
         fprintf(stream, ", its line ");
-        tell_place(stream, guide->line, "elastic axis");
+        describe_position(stream, guide->line, "elastic axis");
     }
     fputc('\n', stream);
     if (guide->present)
-        tell_slide(stream, guide);
+        describe_slide(stream, guide);
     for (int i = 0; i < tubes->section_count; i++)
-        tell_section(stream, &tubes->section[i], !guide->present);
+        describe_section(stream, &tubes->section[i], !guide->present);
 }
 
-static void tell_slot(FILE *stream, const ld_slot *slot)
+static void describe_slot(FILE *stream, const ld_slot *slot)
 {
     if (slot->kind == LD_SLOT_NONE)
         return;
@@ -190,7 +190,7 @@ static void tell_slot(FILE *stream, const ld_slot *slot)
 }
 
 // A clamp, of which directions unless of all, and springs beside it.
-static void tell_clamp(FILE *stream, const ld_support *support)
+static void describe_clamp(FILE *stream, const ld_support *support)
 {
     static const char *const name[LD_CLAMPS] = {"x", "y", "z", "roll", "yaw", "pitch"};
     int held = 0, told = 0, springs = 0;
@@ -207,14 +207,14 @@ static void tell_clamp(FILE *stream, const ld_support *support)
     fputs(springs ? ", with springs," : "", stream);
 }
 
-static void tell_supports(FILE *stream, const ld_tubes *tubes)
+static void describe_supports(FILE *stream, const ld_tubes *tubes)
 {
     fprintf(stream, "# supports:");
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *support = &tubes->support[i];
         fputs(i ? "," : "", stream);
         if (support->clamped)
-            tell_clamp(stream, support);
+            describe_clamp(stream, support);
         else
             fputs(" springs", stream);
         fprintf(stream, " at %s", METRES(support->at));
@@ -230,7 +230,7 @@ static void tell_supports(FILE *stream, const ld_tubes *tubes)
 // ---- rocket ----
 
 // What is around an adaptor, or more than the guide's gaps around a shoe.
-static void tell_clearance(FILE *stream, const ld_model *model, int i)
+static void describe_clearance(FILE *stream, const ld_model *model, int i)
 {
     double clearance = model->rocket.adaptor[i].clearance;
     if (contact_has(model->rocket.contact.law, LD_CONTACT_TWO_SIDED))
@@ -241,7 +241,7 @@ static void tell_clearance(FILE *stream, const ld_model *model, int i)
         fprintf(stream, ", gaps %s wider", MILLIMETRES(clearance));
 }
 
-static void tell_rocket(FILE *stream, const ld_model *model)
+static void describe_rocket(FILE *stream, const ld_model *model)
 {
     const ld_rocket *rocket = &model->rocket;
     fprintf(stream, "# rocket: %.4g kg, from %s, on %s", rocket->full.mass,
@@ -249,7 +249,7 @@ static void tell_rocket(FILE *stream, const ld_model *model)
     for (int i = 0; i < rocket->adaptor_count; i++) {
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         fprintf(stream, "%s %s (%s", i ? "," : "", VISIBLE(adaptor->name), METRES(adaptor->at));
-        tell_clearance(stream, model, i);
+        describe_clearance(stream, model, i);
         fputc(')', stream);
     }
     if (contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
@@ -268,7 +268,7 @@ static double greatest(const ld_table *table)
     return most;
 }
 
-static void tell_motor(FILE *stream, const ld_motor *motor)
+static void describe_motor(FILE *stream, const ld_motor *motor)
 {
     const ld_table *thrust = &motor->thrust;
     double end = thrust->rows ? thrust->data[2 * (thrust->rows - 1)] : 0;
@@ -276,7 +276,7 @@ static void tell_motor(FILE *stream, const ld_motor *motor)
             NEWTONS(greatest(thrust) * motor->thrust_scale), end * motor->time_scale);
 }
 
-static void tell_pressure(FILE *stream, const ld_pressure *pressure)
+static void describe_pressure(FILE *stream, const ld_pressure *pressure)
 {
     switch (pressure->form) {
     case LD_PRESSURE_OVER_TIME:
@@ -294,16 +294,16 @@ static void tell_pressure(FILE *stream, const ld_pressure *pressure)
     }
 }
 
-static void tell_drive(FILE *stream, const ld_model *model)
+static void describe_drive(FILE *stream, const ld_model *model)
 {
     const ld_lock *lock = &model->rocket.lock;
     bool gas = model_has_pressure(model), motor = !model->rocket.motor.absent;
     fprintf(stream, "# drive: ");
     if (gas)
-        tell_pressure(stream, &model->tubes.pressure);
+        describe_pressure(stream, &model->tubes.pressure);
     if (motor) {
         fputs(gas ? " and " : "", stream);
-        tell_motor(stream, &model->rocket.motor);
+        describe_motor(stream, &model->rocket.motor);
     }
     if (!gas && !motor)
         fprintf(stream, "none");
@@ -314,7 +314,7 @@ static void tell_drive(FILE *stream, const ld_model *model)
 }
 
 // The air that the rocket feels before its release.
-static void tell_air(FILE *stream, const ld_model *model)
+static void describe_air(FILE *stream, const ld_model *model)
 {
     if (model_has_open_air(model))
         fprintf(stream, "# air: on the whole rocket on its %s, from the start on\n",
@@ -330,13 +330,13 @@ void ld_model_describe(const ld_model *model, FILE *stream)
     if (!model_has_launcher(model))
         return;
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
-    tell_base(stream, model);
-    tell_guide(stream, model);
-    tell_slot(stream, &model->tubes.slot);
-    tell_supports(stream, &model->tubes);
-    tell_rocket(stream, model);
-    tell_drive(stream, model);
-    tell_air(stream, model);
+    describe_base(stream, model);
+    describe_guide(stream, model);
+    describe_slot(stream, &model->tubes.slot);
+    describe_supports(stream, &model->tubes);
+    describe_rocket(stream, model);
+    describe_drive(stream, model);
+    describe_air(stream, model);
     uselocale(before);
     freelocale(plain);
 }

@@ -13,7 +13,7 @@
 #include "scenario/scenario_reader.h"
 
 // The name of a file beside others in a folder, in the pool.
-static char *beside(scenario_reader *reader, const char *folder, const char *name)
+static char *path_in_folder(scenario_reader *reader, const char *folder, const char *name)
 {
     bool alone = name[0] == '/' || !folder || !folder[0];
     size_t length = strlen(name) + (alone ? 0 : strlen(folder)) + 2;
@@ -56,8 +56,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
                          const char *name)
 {
-    char *file_name = beside(reader, place.source->folder, name);
-    char *within = beside(reader, place.source->within, name);
+    char *file_name = path_in_folder(reader, place.source->folder, name);
+    char *within = path_in_folder(reader, place.source->within, name);
     if (!file_name || !within)
         return NULL;
     const ld_source_file *file = source_find(reader->source, within);
@@ -122,8 +122,8 @@ static const char *take_digest(scenario_reader *reader, text_place place, const 
 }
 
 // Puts "DIGEST: PATH" into the source.
-static const ld_source_file *keep(scenario_reader *reader, const char *digest,
-                                  const char *file_name, const char *within)
+static const ld_source_file *keep_file(scenario_reader *reader, const char *digest,
+                                       const char *file_name, const char *within)
 {
     char *text = NULL, *whole = realpath(file_name, NULL);
     size_t length;
@@ -138,7 +138,7 @@ static const ld_source_file *keep(scenario_reader *reader, const char *digest,
     return kept;
 }
 
-// `*digest`: as take_digest tells it.
+// `*digest`: as take_digest reports it.
 static const ld_source_file *read_first(scenario_reader *reader, text_place place, const char *path,
                                         const char *file_name, const char *within,
                                         const char **digest)
@@ -147,7 +147,7 @@ static const ld_source_file *read_first(scenario_reader *reader, text_place plac
         *digest = take_digest(reader, place, path, file_name);
     else
         reader_refuse(reader, place, path, "file \"%s\" is not among the stored files", within);
-    return *digest ? keep(reader, *digest, file_name, within) : NULL;
+    return *digest ? keep_file(reader, *digest, file_name, within) : NULL;
 }
 
 // The file is as it was when it was read first, or as the scenario says; false after a message.
@@ -164,8 +164,8 @@ static bool check_digest(scenario_reader *reader, text_place place, const char *
 const char *reader_keep(scenario_reader *reader, text_place place, const char *path,
                         const char *name, const char **digest)
 {
-    const char *file_name = beside(reader, place.source->folder, name);
-    const char *within = beside(reader, place.source->within, name);
+    const char *file_name = path_in_folder(reader, place.source->folder, name);
+    const char *within = path_in_folder(reader, place.source->within, name);
     if (!file_name || !within)
         return NULL;
     const char *now = NULL;

@@ -7,7 +7,7 @@
 
 // Reads the file of one engine, whose text the lines have not begun to read: of a format with two
 // columns time and thrust, else what rocket.motor.masses holds, centres counted from the motor's
-// front end. What is wrong is told, lines->failed then.
+// front end. What is wrong is reported, lines->failed then.
 void rocksim_read(line_reader *lines, const table_format *format, ld_table *table);
 
 #endif

@@ -144,7 +144,7 @@ static tree_node *apply_overrides(scenario_reader *reader, tree_node *root)
     return root;
 }
 
-// Reads each value of each axis by itself, only for messages about its key: whether values of
+// Reads each value of each axis on its own, only for messages about its key: whether values of
 // several go together is seen when their point is read.
 static void check_values(scenario_reader *reader, const tree_node *file,
                          const scenario_sweep *sweep)
@@ -224,8 +224,8 @@ static void read_point(scenario_reader *reader, const text_source *source, int p
         check_values(reader, whole.file, &whole.sweep);
 }
 
-// Puts notes on point `from` to `to` into `notes`, each once, and what is wrong with them into the
-// messages.
+// Puts warnings on point `from` to `to` into `notes`, each once, and what is wrong with them into
+// the messages.
 static void note_points(scenario_reader *reader, const text_source *source, int from, int to,
                         ld_messages *notes)
 {
@@ -258,7 +258,7 @@ static void note_points(scenario_reader *reader, const text_source *source, int 
     ld_model_free(axes);
 }
 
-// What is to be read: point `from` into the model or, without one, notes on it up to point `to`.
+// What is to be read: point `from` into the model or, without one, warnings on it up to point `to`.
 typedef struct reading {
     int from, to;
     const char *complaint; // about a key of the model, for which there is a message; NULL: none

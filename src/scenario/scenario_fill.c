@@ -30,7 +30,7 @@ static void join(char path[PATH], const char *parent, const char *key)
     extend(path, key);
 }
 
-// Refuses a value that is no scalar, list or mapping as it should be.
+// Refuses a value that is not a scalar, list or mapping as it should be.
 static void refuse_value(scenario_reader *reader, const field_row *f, const tree_node *value,
                          const char *path)
 {
@@ -128,7 +128,7 @@ static void read_whole(scenario_reader *reader, const field_row *f, const tree_n
     }
 }
 
-// Refuses a value that is none of the words that may stand there, with the one meant.
+// Refuses a value that is none of the words that is allowed there, with the one meant.
 static void refuse_word(scenario_reader *reader, const field_row *f, const field_word *words,
                         const tree_node *value, const char *path)
 {
@@ -203,7 +203,7 @@ static char *own_text(scenario_reader *reader, const char *text)
     return own;
 }
 
-// A file that is no text, with its digest, which may have been given.
+// A file that is not text, with its digest, which may have been given.
 static void read_file_name(scenario_reader *reader, const field_row *f, const tree_node *value,
                            void *base, const char *path)
 {
@@ -598,8 +598,8 @@ const char *scenario_key_meant(const field_block *block, const char *key)
     return block == &scenario_block ? ld_nearest_name(key, names, meant ? 2 : 1) : meant;
 }
 
-// Refuses what is no key of the block, and goes on with the key meant, lest it be missed as well. A
-// block is laid over the one meant (of a file included), lest its own errors be missed.
+// Refuses what is not a key of the block, and continues with the key meant, lest it be missed as
+// well. A block is laid over the one meant (of a file included), lest its own errors be missed.
 static void refuse_unknown_keys(scenario_reader *reader, const field_block *block,
                                 const tree_node *map, const char *path)
 {

@@ -1,5 +1,5 @@
-// Notes on values that are allowed but hardly meant: the rules of plausibility with their places in
-// the text.
+// Warnings on values that are allowed but implausible: the rules of plausibility with their places
+// in the text.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +57,7 @@ static void quantity_text(double value, const char *unit, char text[64])
              unit[0] ? " " : "", angle ? "deg" : unit);
 }
 
-// What the rule compares with: a key's path, # being the entry of the note, or words.
+// What the rule compares with: a key's path, # being the entry of the warning, or words.
 static void other_name(const plausible_note *note, char name[LD_MAX_PATH])
 {
     const plausible_rule *rule = note->rule;
@@ -136,5 +136,5 @@ static void take_note(void *self, const plausible_note *note)
 
 void scenario_take_notes(scenario_reader *reader, const tree_node *root, const ld_model *model)
 {
-    plausible_look(model, take_note, &(note_context){reader, root});
+    plausible_check(model, take_note, &(note_context){reader, root});
 }

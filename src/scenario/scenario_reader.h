@@ -29,7 +29,7 @@ typedef struct text_source {
     const char *name; // of the file; "--set"
     const char *text;
     size_t length;
-    const char *folder; // where files that it names are looked for
+    const char *folder; // where files that it names are searched
     int first_line;     // number of its first line: 1, of an override its own number
     const char *within; // folder as seen from the scenario's
 } text_source;
@@ -133,7 +133,7 @@ void tree_path(const tree_node *root, const char *path, char full_path[READER_MA
 // message.
 tree_node *tree_at_path(scenario_reader *reader, const char *path, text_place at, tree_node *value);
 void tree_remove(tree_node *parent, tree_node *member);
-// Whether the node is the block that may stand in place of the list `f` (NULL: no key).
+// Whether the node is the block that is allowed in place of the list `f` (NULL: no key).
 bool tree_is_alternative(const struct field_row *f, const tree_node *node);
 // Whether there is no value: nothing, ~ or null.
 bool tree_is_empty(const tree_node *node);
@@ -145,7 +145,7 @@ const char *scenario_key_meant(const struct field_block *block, const char *key)
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
 
-// Adds a message about each value of a good scenario that is allowed but hardly meant.
+// Adds a message about each value of a good scenario that is allowed but implausible.
 void scenario_take_notes(scenario_reader *reader, const tree_node *root, const ld_model *model);
 
 // Whether a sentence begins with the path of a key and a colon.
@@ -201,7 +201,7 @@ bool table_file_read(scenario_reader *reader, const struct field_row *f, text_pl
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,
                          const char *name);
 
-// The same of a file that is no text: its full path; in reader->source are that path and a digest.
+// The same of a file that is not text: its full path; in reader->source are that path and a digest.
 // A file that has changed since, or is not of `digest` (NULL: any), is refused; then `digest` is
 // its own.
 const char *reader_keep(scenario_reader *reader, text_place place, const char *path,

@@ -40,8 +40,8 @@ static bool is_overridden(const tree_node *root, const char *path, const char *c
 }
 
 // Whether a key of the axis can be swept beside those of the axis `other`.
-static bool goes_beside(scenario_reader *reader, const scenario_axis *axis,
-                        const scenario_axis *other, const char *path)
+static bool is_compatible(scenario_reader *reader, const scenario_axis *axis,
+                          const scenario_axis *other, const char *path)
 {
     const tree_node *node = axis->node;
     for (int k = 0; k < other->keys.count; k++) {
@@ -68,11 +68,11 @@ static bool may_be_swept(scenario_reader *reader, const scenario_sweep *before,
             return refuse(reader, node->key_at, node->key,
                           "keys of the study itself cannot be swept%s", "");
     for (int i = 0; i < before->count; i++)
-        if (!goes_beside(reader, axis, &before->axis[i], path))
+        if (!is_compatible(reader, axis, &before->axis[i], path))
             return false;
     if (strlen(path) >= LD_MAX_PATH)
         return refuse(reader, node->key_at, node->key, "the path is too long%s", "");
-    return goes_beside(reader, axis, axis, path);
+    return is_compatible(reader, axis, axis, path);
 }
 
 static bool has_values(scenario_reader *reader, const scenario_axis *axis)

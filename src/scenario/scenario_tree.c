@@ -239,7 +239,7 @@ static bool is_properly_plain(builder *b, const yaml_char_t *anchor, const yaml_
 static tree_node *build_value(builder *b, int depth);
 
 // Appends a key or a number to the path; returns the length it had.
-static size_t enter(builder *b, const char *key, int number)
+static size_t enter_path(builder *b, const char *key, int number)
 {
     size_t length = strlen(b->path), room = sizeof b->path - length;
     const char *point = length ? "." : "";
@@ -281,7 +281,7 @@ static void build_map(builder *b, tree_node *map, int depth)
         tree_node *key = build_value(b, depth);
         if (!key || !next_event(b))
             return;
-        size_t length = enter(b, key->text, 0);
+        size_t length = enter_path(b, key->text, 0);
         tree_node *value = build_value(b, depth);
         if (value)
             add_key(b, map, key, value);
@@ -296,7 +296,7 @@ static void build_list(builder *b, tree_node *list, int depth)
             yaml_event_delete(&b->event);
             return;
         }
-        size_t length = enter(b, NULL, list->count + 1);
+        size_t length = enter_path(b, NULL, list->count + 1);
         tree_node *member = build_value(b, depth);
         if (member)
             tree_append(list, member);

@@ -22,7 +22,7 @@ static void refuse_name(scenario_reader *reader, const tree_node *node, const ch
     char best[QUANTITY_NAME], whole[QUANTITY_NAME];
     study_result_near(things, result, best);
     study_result_near(things, node->key, whole);
-    // without a statistic, what stands before the last point is no result's name
+    // without a statistic, what stands before the last point is not a result's name
     const char *near = study_result_find(things, result).row ? result : *whole ? whole : best;
     if (*near && near != whole && statistic)
         reader_refuse(reader, node->key_at, path,

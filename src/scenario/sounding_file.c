@@ -67,7 +67,7 @@ typedef struct sounding {
     int columns;            // of the file, GSD's aside
 } sounding;
 
-static bool has(const sounding *self, quantity is)
+static bool has_quantity(const sounding *self, quantity is)
 {
     return self->known[is] != NULL;
 }
@@ -104,8 +104,8 @@ static int field_of(const sounding *self, quantity is)
                                                    [HUMIDITY] = {HUMIDITY, DEW_POINT},
                                                    [EAST] = {SPEED, EAST},
                                                    [NORTH] = {SPEED, NORTH}};
-    quantity given = source[is][has(self, source[is][0]) ? 0 : 1];
-    return has(self, given) ? self->column[given] : 0;
+    quantity given = source[is][has_quantity(self, source[is][0]) ? 0 : 1];
+    return has_quantity(self, given) ? self->column[given] : 0;
 }
 
 // Whether a row's numbers are those of an atmosphere; false after a message.
@@ -128,7 +128,7 @@ static bool is_in_range(const sounding *self, const quantity *wanted, const doub
 
 // Puts a row into the table; one that lacks a number, does not rise or whose pressure does not fall
 // is passed over.
-static void keep(sounding *self, double value[QUANTITIES])
+static void keep_row(sounding *self, double value[QUANTITIES])
 {
     static const quantity of_air[] = {HEIGHT, PRESSURE, TEMPERATURE, HUMIDITY},
                           of_wind[] = {HEIGHT, NORTH, EAST};
@@ -170,14 +170,14 @@ static void check_columns(sounding *self)
 {
     bool air = is_of_air(self->format);
     const char *missing = NULL;
-    if (!has(self, HEIGHT) && !has(self, GEOPOTENTIAL))
+    if (!has_quantity(self, HEIGHT) && !has_quantity(self, GEOPOTENTIAL))
         missing = "heights";
-    else if (air && !has(self, PRESSURE))
+    else if (air && !has_quantity(self, PRESSURE))
         missing = "pressures";
-    else if (air && !has(self, TEMPERATURE))
+    else if (air && !has_quantity(self, TEMPERATURE))
         missing = "temperatures";
-    else if (!air && !(has(self, EAST) && has(self, NORTH)) &&
-             !(has(self, SPEED) && has(self, DIRECTION)))
+    else if (!air && !(has_quantity(self, EAST) && has_quantity(self, NORTH)) &&
+             !(has_quantity(self, SPEED) && has_quantity(self, DIRECTION)))
         missing = "winds";
     char text[160];
     if (!missing)
@@ -230,7 +230,7 @@ void sounding_read_csv(line_reader *lines, const table_format *format, ld_table 
                 return;
             value[i] = known->factor * value[i] + known->offset;
         }
-        keep(&self, value);
+        keep_row(&self, value);
     }
     check_rows(&self);
 }
@@ -318,7 +318,7 @@ static void read_list(sounding *self)
                     return;
                 value[i] = known->factor * value[i] + known->offset;
             }
-        keep(self, value);
+        keep_row(self, value);
         if (lines->failed)
             return;
     }
@@ -367,7 +367,7 @@ static void read_gsd_row(sounding *self, double speed, double *pressure)
         *pressure = value[PRESSURE] > 1100 ? 10 : 100;
     value[PRESSURE] *= *pressure;
     value[SPEED] *= speed;
-    keep(self, value);
+    keep_row(self, value);
 }
 
 // From the line at hand, the first of data, on.

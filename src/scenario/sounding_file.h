@@ -10,8 +10,8 @@
 bool sounding_is_header(const line_reader *lines);
 
 // The rest of a CSV file whose header is the line at hand: of RocketPy (height, pressure,
-// temperature, wind_u, wind_v in SI units) or of the University of Wyoming (pressure_hPa, ...).
-// Of the columns it takes those of `format`; what is wrong is told, lines->failed then.
+// temperature, wind_u, wind_v in SI units) or of the University of Wyoming (pressure_hPa, ...). Of
+// the columns it takes those of `format`; what is wrong is reported, lines->failed then.
 void sounding_read_csv(line_reader *lines, const table_format *format, ld_table *table);
 
 // A text: the list of the University of Wyoming, or the format GSD of NOAA.

@@ -51,7 +51,7 @@ static const struct {
 } prefixes[] = {{'n', 1e-9}, {'u', 1e-6}, {'m', 1e-3}, {'c', 1e-2},
                 {'h', 1e2},  {'k', 1e3},  {'M', 1e6},  {'G', 1e9}};
 
-// Common units, for suggestions, and slips that are no matter of spelling.
+// Common units, for suggestions, and slips that are not a matter of spelling.
 static const char *const common[] = {"m",   "mm", "cm",  "um", "km",  "kg",   "g",   "t",   "s",
                                      "ms",  "us", "min", "h",  "rad", "mrad", "deg", "rev", "Hz",
                                      "kHz", "N",  "kN",  "MN", "Pa",  "hPa",  "kPa", "MPa", "GPa",
@@ -121,7 +121,7 @@ static void multiply(measure *product, const measure *unit, int power, bool belo
         product->power[i] += (below ? -power : power) * unit->power[i];
 }
 
-// Reads factors joined by . * or /, maybe after "1/"; `unknown` names the first that is no unit.
+// Reads factors joined by . * or /, maybe after "1/"; `unknown` names the first that is not a unit.
 static units_result read_product(const char *text, measure *product, char unknown[32])
 {
     units_result result = UNITS_OK;

@@ -26,8 +26,8 @@ static int rocket_freedoms(const launch_state *self)
     return launching->surfaces.count && !held ? 5 : 4;
 }
 
-// Unknowns of the launching subsystem: R's place and attitude (6), q, then those of the rocket, and
-// s where the breech carries it.
+// Unknowns of the launching subsystem: R's position and attitude (6), q, then those of the rocket,
+// and s where the breech carries it.
 static int launching_freedoms(const launch_state *self)
 {
     return 6 + self->launcher.launching.layout.nq + rocket_freedoms(self) + self->on_breech;
@@ -67,7 +67,7 @@ void simulation_move_with_base(const launch_state *self, double t, double *y)
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
     if (launcher->base.kind->dynamics)
-        launcher->base.kind->dynamics->set_off(&launcher->base, y + launcher->base_at);
+        launcher->base.kind->dynamics->set_start_velocity(&launcher->base, y + launcher->base_at);
     launcher_input input;
     launching_output unused;
     launching_pose pose;
@@ -235,7 +235,7 @@ static base_frame setting_off(const launch_state *self, double t, const double *
     double moving[LD_MAX_STATES];
     memcpy(moving, y, (size_t)self->launcher.state_count * sizeof *y);
     if (base->kind->dynamics)
-        base->kind->dynamics->set_off(base, moving + self->launcher.base_at);
+        base->kind->dynamics->set_start_velocity(base, moving + self->launcher.base_at);
     return going_of(self, t, moving);
 }
 
@@ -340,8 +340,8 @@ static double newton(const problem *the, double *y)
     return now;
 }
 
-// Newton's method with whole steps: where surfaces are touched and let go of it finds which of them
-// carry, as halved steps, which stop at the kinks, do not. Leaves the best state in y.
+// Newton's method with whole steps: where surfaces are touched and released of it finds which of
+// them carry, as halved steps, which stop at the kinks, do not. Leaves the best state in y.
 static double newton_whole(const problem *the, double *y)
 {
     int n = the->count;
@@ -472,7 +472,7 @@ static void guess_straight(const problem *the, const double *start, double *y)
 }
 
 // Newton's method from the guess in y; the tube alone before its base: it has the kinks.
-static double settle(const problem *the, double *y)
+static double solve_newton(const problem *the, double *y)
 {
     problem tube = *the;
     tube.count = launching_freedoms(the->self);
@@ -497,7 +497,7 @@ static double try_pairs(const problem *the, const double *start, double extra, d
             guess_straight(the, start, trial);
             if (hypot(pull.y, pull.z) > 0)
                 guess_contacts(self, i, j, pull, extra, trial);
-            double reached = settle(the, trial);
+            double reached = solve_newton(the, trial);
             if (reached < best) {
                 best = reached;
                 memcpy(y, trial, size);
@@ -536,7 +536,7 @@ static double try_centred(const problem *the, const double *start, double depth,
     held.spring = 1e6;
     guess_straight(the, start, y);
     y[the->self->launcher.launching.layout.x + X_S] -= depth;
-    double reached = settle(&held, y), holds = held_by_spring(&held, y, &unused);
+    double reached = solve_newton(&held, y), holds = held_by_spring(&held, y, &unused);
     return holds < 1e-9 * model_gravity(the->self->model) ? reached : INFINITY;
 }
 
@@ -592,7 +592,7 @@ static double try_leaning(const problem *the, const double *start, double accept
                 continue;
             guess_straight(the, start, trial);
             guess_leaning(the->self, i, j, pull, trial);
-            double reached = settle(the, trial);
+            double reached = solve_newton(the, trial);
             if (reached < best) {
                 best = reached;
                 memcpy(y, trial, (size_t)launcher->state_count * sizeof(double));
@@ -639,7 +639,7 @@ static double newton_fine(problem *the, const double *from, double accepted, dou
 }
 
 // Twice the kinetic energy that two small displacements have in common, taken as rates: gravity
-// takes a rocket that is let go where this is positive of its way and what pulls it.
+// takes a rocket that is released where this is positive of its way and what pulls it.
 static double in_common(const rocket_mass *rocket, const double a[SHOE_FREEDOMS],
                         const double b[SHOE_FREEDOMS])
 {
@@ -680,7 +680,7 @@ static bool is_far(const launch_state *self, const double *from, const double *t
 // to where it is, then to where that took it, softer each time. Back over a top leads no way that
 // gravity takes: the spring was too soft, as where Newton's method finds none. Ends where the
 // spring has nothing to hold, or away from the guide. Returns the residual.
-static double let_go(const problem *the, double accepted, double *y)
+static double release_and_settle(const problem *the, double accepted, double *y)
 {
     const double softest = 1e-3, hardest = 1e9;
     const rocket_mass *rocket = &the->self->motor->full;
@@ -739,9 +739,9 @@ static double find_beside(problem *the, const double *start, double depth, const
     found[self->launcher.launching.layout.x + X_S] -= depth;
     for (int i = 0; i < SHOE_FREEDOMS && nudge; i++)
         found[self->launcher.launching.layout.x + X_Y + i] += nudge[i];
-    double reached = let_go(&tube, accepted, found);
+    double reached = release_and_settle(&tube, accepted, found);
     if (the->count > tube.count && reached <= accepted)
-        reached = let_go(the, accepted, found);
+        reached = release_and_settle(the, accepted, found);
     memcpy(y, found, sizeof found);
     the->carried = carried;
     the->spring = 1e4;
@@ -797,7 +797,7 @@ static void mirror(const launch_state *self, const double off[PLACES], double re
     to[3] = -(front_z - to[1]) / span;
 }
 
-// Whether a rocket that is let go at `from` comes to rest, at `to` from the guide line, elsewhere
+// Whether a rocket that is released at `from` comes to rest, at `to` from the guide line, elsewhere
 // than at `off`, where it rests in y.
 static bool rests_elsewhere(const problem *the, const double *start, double accepted,
                             const double *y, const double *from, const double off[PLACES],
@@ -823,8 +823,8 @@ static bool rests_elsewhere(const problem *the, const double *start, double acce
 // Whether a rocket that leans in an upright guide would also rest elsewhere: started on the other
 // side of the guide line, then with its rear or its front there, it stays away from where it rests
 // in y.
-static void look_elsewhere(const problem *the, const double *start, double accepted,
-                           const double *y, ld_equilibrium_summary *summary)
+static void search_elsewhere(const problem *the, const double *start, double accepted,
+                             const double *y, ld_equilibrium_summary *summary)
 {
     static const double sides[][2] = {{-1, -1}, {-1, 1}, {1, -1}};
     const double least = 1e-5; // [m, rad]
@@ -863,7 +863,7 @@ static ld_status check_carried(const problem *the, const double *y, double accep
                    the->self->air ? "gravity and the air pull" : "gravity pulls", names[worst]);
 }
 
-// The rocket in its bore is let go from the axis. `best`: what the state in y has reached.
+// The rocket in its bore is released from the axis. `best`: what the state in y has reached.
 static double try_letting_go(const problem *the, const double *start, double accepted, double best,
                              double *y)
 {
@@ -871,9 +871,9 @@ static double try_letting_go(const problem *the, const double *start, double acc
     double found[LD_MAX_STATES];
     tube.count = launching_freedoms(the->self);
     guess_straight(the, start, found);
-    double reached = let_go(&tube, accepted, found);
+    double reached = release_and_settle(&tube, accepted, found);
     if (the->count > tube.count && reached <= accepted)
-        reached = let_go(the, accepted, found);
+        reached = release_and_settle(the, accepted, found);
     if (!(reached <= accepted) || is_away(the, found))
         return best;
     problem fine = *the;
@@ -908,8 +908,8 @@ static void stand_on_breech(launch_state *self, problem *the, launching_phase *p
 }
 
 // From where the lock holds the rocket in y onto the breech, which it presses in by `depth`.
-static double go_on_breech(launch_state *self, problem *the, launching_phase *phase, double depth,
-                           double accepted, double *y)
+static double continue_on_breech(launch_state *self, problem *the, launching_phase *phase,
+                                 double depth, double accepted, double *y)
 {
     double best = INFINITY;
     stand_on_breech(self, the, phase);
@@ -936,7 +936,7 @@ static double find_on_surfaces_and_breech(launch_state *self, problem *the, laun
     phase->locked = true;
     double next = find_on_surfaces(&held, start, 0, &other, accepted, found);
     bool rests = is_at_rest(&held, found, next, accepted);
-    next = go_on_breech(self, &held, phase, depth, accepted, found);
+    next = continue_on_breech(self, &held, phase, depth, accepted, found);
     if (!rests || !is_at_rest(&held, found, next, accepted))
         return reached;
     *carried = other;
@@ -963,7 +963,8 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
     if (surfaces)
         return find_on_surfaces(the, start, 0, carried, accepted, y);
     double best = find_rest(the, start, accepted, y);
-    return stands && best <= accepted ? go_on_breech(self, the, phase, depth, accepted, y) : best;
+    return stands && best <= accepted ? continue_on_breech(self, the, phase, depth, accepted, y)
+                                      : best;
 }
 
 // A base with a motion of its own in equilibrium under a tube that is a dead load; one that is
@@ -977,12 +978,12 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     double *of_base = y + self->launcher.base_at;
     if (stands)
         memcpy(of_base, stands, (size_t)base->state_count * sizeof *of_base);
-    if (base->kind->tell && !self->told)
+    if (base->kind->receive_frame && !self->reported)
         return ld_fail(error, LD_ERR_INPUT,
                        "base.kind: external: this base is driven by a program that steps the run; "
                        "the command cannot run it");
-    if (base->kind->tell)
-        base->kind->tell(base, t, true, self->told, of_base);
+    if (base->kind->receive_frame)
+        base->kind->receive_frame(base, t, true, self->reported, of_base);
     if (!dynamics)
         return LD_OK;
     dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m, of_base);
@@ -997,7 +998,7 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     free(dead.jacobian);
     if (reached <= accepted)
         return LD_OK;
-    return dynamics->no_rest(reached, error);
+    return dynamics->report_no_rest(reached, error);
 }
 
 // Whether the run can begin in the equilibrium found, which its base keeps.
@@ -1077,7 +1078,7 @@ static ld_status resting_wrench(const launch_state *self, double t, const double
     return LD_OK;
 }
 
-// A start on a base that stands, and is looked for where it does.
+// A start on a base that stands, and is searched where it does.
 typedef ld_status find_on_base(launch_state *self, double t, const double *stands, double *y,
                                ld_equilibrium_summary *summary, ld_error *error);
 
@@ -1096,7 +1097,7 @@ static ld_status find_with_base(launch_state *self, double t, find_on_base *find
     if (!stepping)
         return find(self, t, NULL, y, summary, error);
     for (int i = 0; i < MOST_TURNS && !status && moved > agreed; i++) {
-        status = stepping->stand(base, t, &on, state, &moved, error);
+        status = stepping->find_rest(base, t, &on, state, &moved, error);
         if (!status)
             status = find(self, t, state, y, summary, error);
         if (!status)
@@ -1171,7 +1172,7 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
         status = keep_rest(self, t, y, error);
     if (!status) {
         report(&whole, y, summary);
-        look_elsewhere(&whole, start, accepted, y, summary);
+        search_elsewhere(&whole, start, accepted, y, summary);
     }
     free(whole.jacobian);
     return status;

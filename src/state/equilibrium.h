@@ -4,7 +4,7 @@
 
 #include "state/launch_state.h"
 
-// [1/s2] pulls back to its place what constraints hold there, where nothing else would keep it.
+// [1/s2] pulls back to its position what constraints hold there, where nothing else would keep it.
 static const double RESTORING = 1e6;
 
 // Puts tube and rocket straight and at rest on the base at time t (model.md, section 5), a vehicle
@@ -19,8 +19,8 @@ ld_status simulation_equilibrium(launch_state *self, double t, double *y,
 // Gives tube and rocket the base's velocity at t, as one rigid body with it; a vehicle its speed.
 void simulation_move_with_base(const launch_state *self, double t, double *y);
 
-// When a launch begins [s]; how it does at that t: straight or in equilibrium as the scenario wants
-// it, moving with its base.
+// When a launch begins [s]; how it does at that t: straight or in equilibrium as the scenario
+// requires it, moving with its base.
 double simulation_start_time(const ld_model *model);
 ld_status simulation_start(launch_state *self, double t, double *y, ld_equilibrium_summary *summary,
                            ld_error *error);
@@ -33,7 +33,7 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
                                  ld_error *error);
 
 // Degrees of freedom besides the rocket's roll and, while it is locked, its travel, and their small
-// changes: R's place and attitude (6), q, then y_S, z_S, psi, theta, on the breech s too; of a
+// changes: R's position and attitude (6), q, then y_S, z_S, psi, theta, on the breech s too; of a
 // vehicle also chassis y, pitch, roll, the two hinge angles, the two hinge torques [MN m], then the
 // wheels' positions.
 int simulation_freedoms(const launch_state *self);

@@ -101,7 +101,7 @@ static size_t size_that_counts(const launch_state *self)
 }
 
 // latest.out is that of state y at t.
-static void remember(launch_state *self, double t, const double *y)
+static void keep_latest(launch_state *self, double t, const double *y)
 {
     self->latest.known = true;
     find_conditions(self, t, &self->latest.at);
@@ -136,7 +136,7 @@ const launcher_output *simulation_output(launch_state *self, double t, const dou
         self->latest.known = false;
         if (launcher_evaluate(&self->launcher, &input, &self->phase, y, &self->latest.out))
             return NULL;
-        remember(self, t, y);
+        keep_latest(self, t, y);
     }
     return &self->latest.out;
 }
@@ -151,7 +151,7 @@ int simulation_rates(launch_state *self, double t, const double *y, double *y_do
     simulation_note_outcome(self, outcome);
     if (outcome)
         return -1;
-    remember(self, t, y);
+    keep_latest(self, t, y);
     launcher_rates(&self->launcher, y, out, self->phase.rocket, y_dot);
     return all_finite(self->launcher.state_count, y_dot) ? 0 : -1;
 }

@@ -26,7 +26,7 @@ bool simulation_is_latest(const launch_state *self, double t, const double *y);
 // Rates of all states, which become the latest evaluation; other than 0: there are none, or one is
 // not finite.
 int simulation_rates(launch_state *self, double t, const double *y, double *y_dot);
-// Keeps what an evaluation, whose output is the latest, tells besides the rates.
+// Keeps what an evaluation, whose output is the latest, reports besides the rates.
 void simulation_note_outcome(launch_state *self, launching_outcome outcome);
 bool all_finite(int n, const double *y);
 

@@ -45,7 +45,7 @@ double event_stop_press(const launch_state *self, int index, const launching_out
 }
 
 // Rises through zero at a first touch. Zero itself, where between opposite surfaces without play
-// one touches and the other lets go, counts as touched, else it would be an event of both; by so
+// one touches and the other releases, counts as touched, else it would be an event of both; by so
 // much that the search for a crossing, which goes by the values, does not stay on the spot.
 static double touch_of(double penetration)
 {

@@ -35,7 +35,7 @@ event_list events_of(const launch_state *self, bool base);
 // Where an event stands in the list; -1: it is none of them.
 int event_find(const event_list *self, event_kind kind, int index);
 // How far a stop of a recoil slide is pressed in [m]: positive where it pushes (stop_press), and
-// goes on with what it does as far as that may be rounding.
+// continues with what it does as far as that may be rounding.
 double event_stop_press(const launch_state *self, int index, const launching_output *out);
 // What goes through zero at each event of the list; one that is not awaited stays away from it.
 // Of `out` the base is read where the list has its events, else the launching subsystem alone.

@@ -84,7 +84,7 @@ ld_tip_off tip_off_of(const base_frame *base, const rocket_motion *rocket)
     };
 }
 
-// Roll of Ry(yaw) Rz(pitch) Rx(roll) in axes A_IT, of whose turns the relative roll tells the
+// Roll of Ry(yaw) Rz(pitch) Rx(roll) in axes A_IT, of whose turns the relative roll reports the
 // number.
 static double roll_in(const m3 *A_IT, direction_angles angles, const rocket_motion *rocket)
 {

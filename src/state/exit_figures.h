@@ -11,7 +11,7 @@ typedef struct direction_angles {
 } direction_angles;
 direction_angles direction_angles_of(v3 d, v3 d_dot);
 
-// The rocket's axes x and y, its rate, place and velocity of its mass centre, all in I; its
+// The rocket's axes x and y, its rate, position and velocity of its mass centre, all in I; its
 // relative roll, which counts whole turns.
 typedef struct rocket_motion {
     v3 axis, side, w, r_C, v_C;

@@ -4,7 +4,7 @@
 
 #include "state/simulation.h"
 
-// Hands places, sizes and mode shapes of the launcher to the sink, where it wants them.
+// Hands places, sizes and mode shapes of the launcher to the sink, where it requires them.
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error);
 
 #endif

@@ -351,8 +351,8 @@ static void find_rocket(const launch_state *self, const double *y, launch_instan
     find_contacts(self, now);
 }
 
-static void find(const launch_state *self, double t, const double *y, double energy_start,
-                 launch_instant *now)
+static void find_instant(const launch_state *self, double t, const double *y, double energy_start,
+                         launch_instant *now)
 {
     const launching_system *launching = &self->launcher.launching;
     double within[LD_MAX_STATES], length = launching->tube.flexible.length;
@@ -403,6 +403,6 @@ void history_row(const launch_state *self, double t, const double *y, double ene
                  double *row)
 {
     launch_instant now;
-    find(self, t, y, energy_start, &now);
+    find_instant(self, t, y, energy_start, &now);
     quantity_row(&self->system->columns, &now, row);
 }

@@ -9,7 +9,7 @@
 #include "model/parts.h"
 
 // How far apart the places of a course are [s]; between them it is a cubic. How far beyond the
-// table's end it goes on [m]: so much may a mouth leave the way that it had when its rocket left.
+// table's end it continues [m]: so much may a mouth leave the way that it had when its rocket left.
 static const double spacing = 1e-3, margin = 100;
 enum { MOST_PLACES = 20000 };
 
@@ -41,21 +41,21 @@ static void slopes(const double *t, const double *y, double *y_dot, void *self)
     flight_rates(flown->flight, &flown->phase, *t, y, y_dot);
 }
 
-static bool is_lit(const jet *self)
+static bool is_ignited(const jet *self)
 {
     return self->piece + 1 < (int)self->flight->motor.corner_count;
 }
 
 static double corner_of(const jet *self)
 {
-    return is_lit(self) ? self->t_ignition + self->flight->motor.t[self->piece + 1] : INFINITY;
+    return is_ignited(self) ? self->t_ignition + self->flight->motor.t[self->piece + 1] : INFINITY;
 }
 
 // Begins the pieces that t has reached.
 static bool pass_corners(jet *self, double t)
 {
     int before = self->piece;
-    while (is_lit(self) && t >= corner_of(self))
+    while (is_ignited(self) && t >= corner_of(self))
         self->piece++;
     return self->piece != before;
 }
@@ -75,7 +75,7 @@ static bool keep_place(jet *self, const course *flown, double t, const double *y
     return true;
 }
 
-// The last place is out of reach of the mouth, had that gone on as it did.
+// The last place is out of reach of the mouth, had that continued as it did.
 static bool is_away(const jet *self, double reach)
 {
     const jet_place *last = &self->place[self->count - 1];
@@ -96,7 +96,7 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
     memcpy(y, state, FLIGHT_STATES * sizeof *y);
     dormand_prince_start(&steps, t, y);
     bool kept = keep_place(self, flown, t, y);
-    while (kept && is_lit(&now) && !is_away(self, reach) && self->count < MOST_PLACES) {
+    while (kept && is_ignited(&now) && !is_away(self, reach) && self->count < MOST_PLACES) {
         double next = t + self->count * spacing;
         while (steps.step.t < next) {
             double stop =

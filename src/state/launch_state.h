@@ -29,13 +29,14 @@ typedef struct launch_state {
     int current; // rocket in the order of firing
     double t_ignition;
     launching_phase phase;
-    const base_frame *told; // T at the start, of a base that is told; NULL: nobody tells
-    base_rest rest;         // of the equilibrium
-    bool on_breech;         // the equilibrium is one without a lock, the breech carries the rocket
-    m3 A_ignition;          // A_IT, the undeformed tube on its base, as it stood at that ignition
-    int piece;              // of the thrust curve
-    int pressure_piece;     // of the pressure behind the rocket; 0: not lit
-    bool held_down;         // the lock lets go under no force
+    const base_frame
+        *reported;      // T at the start, of an externally driven base; NULL: no one reports
+    base_rest rest;     // of the equilibrium
+    bool on_breech;     // the equilibrium is one without a lock, the breech carries the rocket
+    m3 A_ignition;      // A_IT, the undeformed tube on its base, as it stood at that ignition
+    int piece;          // of the thrust curve
+    int pressure_piece; // of the pressure behind the rocket; 0: not lit
+    bool held_down;     // the lock releases under no force
     bool jammed;
     jets jets; // of the rockets that have left, where the platform feels them
     struct {   // the latest evaluation, which at a step's end is that of the step's end
@@ -54,8 +55,8 @@ void launch_state_end(launch_state *self);
 // The rocket of firing i takes the place of the one before; its tube comes by launcher_select.
 void launch_state_select(launch_state *self, int i);
 
-// Whether the rocket's motor is lit, or its pressure on.
-static inline bool launch_is_lit(const launch_state *self)
+// Whether the rocket's motor is ignited, or its pressure on.
+static inline bool launch_is_ignited(const launch_state *self)
 {
     return self->piece >= 0 || self->pressure_piece > 0;
 }

@@ -69,8 +69,8 @@ void linear_displace(const launch_state *self, const linear_system *system, int 
         y[base_extra_at(launcher, unknown - 2 * half)] += change;
 }
 
-// How tube and rocket stand and move against what carries each: R's place and attitude against T,
-// in T; v and w against T, V against the tube, in R.
+// How tube and rocket stand and move against what carries each: R's position and attitude against
+// T, in T; v and w against T, V against the tube, in R.
 typedef struct relative_motion {
     v3 r, turn, v, w, V, W;
 } relative_motion;
@@ -275,7 +275,7 @@ static bool is_bent(int n, const double *plus, const double *middle, const doubl
     return bend > 0.03 * rise;
 }
 
-// The same, by a step [out: *h] so small that nothing which is pressed in by little lets go within
+// The same, by a step [out: *h] so small that nothing which is pressed in by little releases within
 // it, where there is one: else its stiffness would be that of neither state, and not the same back
 // and forth.
 static int straight_rates(const launch_state *self, const launching_system *alone,
@@ -608,7 +608,7 @@ static const char *feeder_of(const launch_state *self, const linear_system *syst
 
 // Eigenvalues of J with imaginary part >= 0, by ascending modulus, each with what moves in it;
 // those below `least` [1/s], which constraints and neutral directions leave at zero, are dropped.
-// `fed`: of those whose motion its holder feeds the one that grows fastest (NULL: not wanted).
+// `fed`: of those whose motion its holder feeds the one that grows fastest (NULL: not requested).
 static ld_status eigenvalues(const launch_state *self, const linear_system *system, double least,
                              ld_pole *poles, int capacity, int *count, fed_pole *fed,
                              ld_error *error)

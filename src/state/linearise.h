@@ -4,8 +4,8 @@
 
 #include "state/launch_state.h"
 
-// The equations linearised. Displacements: place and attitude of R (6), q, then of the rocket s,
-// y_S, z_S, psi, theta, gamma (without the rocket they are left out); with a vehicle place and
+// The equations linearised. Displacements: position and attitude of R (6), q, then of the rocket s,
+// y_S, z_S, psi, theta, gamma (without the rocket they are left out); with a vehicle position and
 // attitude of the chassis (6, the rotation in its own axes), the hinge angles, the wheels' places.
 // Speeds in the same order: v, w, q_dot, V, ... Then what has a rate alone: the stabilisers'
 // integrals, eta and xi of each wheel, the drive's integral. d/dt of all: the Jacobian J.
@@ -27,14 +27,13 @@ ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error
 // Linearises the whole about its equilibrium at the start, a vehicle on a flat road at its marching
 // speed; lock closed, no Coulomb friction in hinges, that of the adaptors as it is where they
 // hardly slide (`rubbing`) or none; what constraints hold in place pulled back there (`restored`),
-// which adds motions that nothing excites, or not. A base that goes where it is told rests in the
-// origin.
+// which adds motions that nothing excites, or not. A base with a given motion rests in the origin.
 ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
                                linear_system *system, ld_error *error);
 
 // The tube on its supports alone, straight: its accelerations are -K x - C v of the small changes x
-// and v of its displacements and speeds, R's place and attitude and q, R's speeds and q_dot; K and
-// C by rows, `count` of them (6 + modes).
+// and v of its displacements and speeds, R's position and attitude and q, R's speeds and q_dot; K
+// and C by rows, `count` of them (6 + modes).
 ld_status simulation_tube_matrices(const ld_simulation *simulation, int *count, double *K,
                                    double *C, ld_error *error);
 

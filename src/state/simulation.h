@@ -1,5 +1,5 @@
 // The system of a simulation: what is computed once from the model and then stays as it is, so that
-// several runs may go on over one, each on its own thread.
+// several runs may continue over one, each on its own thread.
 #ifndef LD_SIMULATION_SIMULATION_H
 #define LD_SIMULATION_SIMULATION_H
 

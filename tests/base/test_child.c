@@ -98,7 +98,7 @@ static void test_asked_to_end(void **state)
                        LD_OK, 128 + numbers[i], "");
 }
 
-// One that this process ignores is no wish to end.
+// One that this process ignores is not a wish to end.
 static int ask_parent(void *data)
 {
     (void)data;

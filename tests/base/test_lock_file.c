@@ -103,7 +103,7 @@ static void test_given_up_meanwhile(void **state)
         lock_file_remove(in("x.lock"), lock);
         assert_int_not_equal(access(in("x.lock"), F_OK), 0);
     }
-    // removed between opening and locking: what was opened is nobody's any more
+    // removed between opening and locking: what was opened is no one's any more
     waits.held = take();
     ends_before = true;
     int lock = take(), second;

@@ -108,7 +108,7 @@ static void test_no_name_to_be_had(void **state)
     memset(lengthy, 'x', sizeof lengthy);
     lengthy[4096] = '\0';
     expect_failure(lengthy, LD_ERR_INPUT, "name is too long: xxx");
-    // what is no regular file is written itself
+    // what is not a regular file is written itself
     part_file part;
     assert_int_equal(part_file_begin(&part, "/dev/null", NULL), LD_OK);
     assert_string_equal(part.path, "/dev/null");

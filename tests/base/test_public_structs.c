@@ -1,5 +1,5 @@
 // The public structs keep their sizes: programs are compiled with them (docs/interface.md). A size
-// that changes here breaks programs, and wants a new version in cmake/exports.map.
+// that changes here breaks programs, and requires a new version in cmake/exports.map.
 #include "support/check.h"
 
 #include "launchdyn/environment.h"

@@ -36,7 +36,8 @@ static void test_others_suggest_none(void **state)
     check_name("unknown key, did you mean \"mas", 32, NULL); // cut
 }
 
-// A quantity that was renamed is told by its name of now, behind a prefix too, however far that is.
+// A quantity that was renamed is reported by its name of now, behind a prefix too, however far that
+// is.
 static void test_renamed_names(void **state)
 {
     (void)state;

@@ -315,7 +315,7 @@ static void test_reports(void **state)
                                             "| tostring' page.json");
     assert_string_equal(shell.out, "[\"Reference launcher with a thrust curve from a file\","
                                    "\"0.1.0\",null,null]\n");
-    // notes on the scenario are those of `check`
+    // warnings on the scenario are those of `check`
     must("launchdyn run examples/engine.yaml --set rocket.mass_error='-30 kg' --set "
          "rocket.dynamic_imbalance='2 0 deg' --out n --report -q; "
          "launchdyn check examples/engine.yaml --set rocket.mass_error='-30 kg' --set "

@@ -633,7 +633,7 @@ static void test_response_of_what_is_not_there(void **state)
         {"examples/fixed.yaml -x", "launchdyn: there is no road: the base is not a vehicle\n"},
         {"examples/reference.yaml -x --draws 2 -w pitch -p a.svg",
          "launchdyn: the scatter of the exit is drawn over speeds: set --speeds\n"},
-        {"examples/reference.yaml --rub --loop azimuth",
+        {"examples/reference.yaml --friction --loop azimuth",
          "launchdyn: a loop is shown without friction of the hinges\n"},
         {"examples/fixed.yaml --loop azimuth",
          "launchdyn: there is no loop: the base is not a vehicle\n"},

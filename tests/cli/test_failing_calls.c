@@ -1,6 +1,7 @@
 // Calls of the system that fail: of each kind, over the commands, one call or all from one on. What
 // must hold: a code that is not 0 after one sentence that names the cause, or no consequence; no
-// signal; no file half-written under its own name; the same command then goes on to the same files.
+// signal; no file half-written under its own name; the same command then continues to the same
+// files.
 //
 // Of all calls that come from the same stack the first one fails. LD_FAILING_CALLS: how many, of
 // all there are, in a command (default 2), drawn by chance; 0: all of them. LD_FAILING_COMMAND:

@@ -110,7 +110,7 @@ static void test_check_tells_errors(void **state)
     assert_string_equal(shell.out, "false\n2\nnull\n{\"file\":\"--set\",\"line\":1,\"column\":8,"
                                    "\"path\":\"rocket.mas\",\"text\":\"unknown key, did you mean "
                                    "\\\"mass\\\"?\"}\n");
-    // a file that is not there, a start that cannot be had, a note with and without --strict
+    // a file that is not there, a start that cannot be had, a warning with and without --strict
     assert_int_equal(run("launchdyn check --json none.yaml | jq -c '[.ok, .errors[0].file]'"), 0);
     assert_string_equal(shell.out, "[false,\"none.yaml\"]\n");
     assert_int_equal(run("launchdyn check --json examples/reference.yaml --set "
@@ -154,8 +154,8 @@ static void test_run(void **state)
     expect_complaint("launchdyn run --jsno x", 2, "unknown option --jsno (did you mean --json?)\n");
 }
 
-// A rattling rail at a coarse tolerance and a fine one: the note of a run, and in a study the share
-// of rockets whose rates are off by more than 1 %, against the exported column.
+// A rattling rail at a coarse tolerance and a fine one: the warning of a run, and in a study the
+// share of rockets whose rates are off by more than 1 %, against the exported column.
 #define RATTLING                                                                                   \
     "examples/rail/pad.yaml --set run.end=tip --set rocket.contact.restitution=0.95 "              \
     "--set rocket.contact.stiffness='1e8 N/m' "
@@ -359,7 +359,7 @@ static void test_study(void **state)
 }
 
 // Of rockets that leave near the vertical the study says so, and those that do not count none; a
-// result is told by its name of now.
+// result is reported by its name of now.
 static void test_study_near_the_vertical(void **state)
 {
     (void)state;
@@ -379,7 +379,7 @@ static void test_study_near_the_vertical(void **state)
     assert_string_equal(shell.out, "{\"known\":2,\"above\":0}\n{\"known\":2,\"above\":2}\n");
 }
 
-// Former names of results and columns are accepted, and what they are called now is told.
+// Former names of results and columns are accepted, and what they are called now is reported.
 static void test_former_names(void **state)
 {
     (void)state;

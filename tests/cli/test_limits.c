@@ -59,7 +59,7 @@ static void test_codes(void **state)
     run(STUDY "launchdyn study study.yaml --out bad --quiet");
     assert_int_equal(shell.code, INPUT);
 
-    // what is not to be had
+    // what is not available
     expect_sentence("launchdyn run examples/fixed.yaml --out /dev/null/x" QUICK, SYSTEM,
                     "cannot make the folder");
     expect_sentence("launchdyn version >/dev/full", SYSTEM, "cannot print: No space left");
@@ -231,7 +231,7 @@ static void test_few_threads(void **state)
         "cp -L launchdyn own; cp -L examples/fixed.yaml .; "
         "sed -i 's/examples.//' study.yaml; chmod -R a+rX .; chmod 777 .; "
         "if [ $(id -u) = 0 ]; then other=\"setpriv --reuid $((100000 + $$)) --clear-groups\"; fi; "
-        "for n in 1 2; do echo \"ASAN_OPTIONS=detect_leaks=0 " // that wants a thread
+        "for n in 1 2; do echo \"ASAN_OPTIONS=detect_leaks=0 " // that requires a thread
         "prlimit --nproc=$n $other ./own study study.yaml -j 2 --out s --quiet\" >$n; done");
     expect_sentence("sh 1", SYSTEM, "cannot start a process: Resource temporarily unavailable");
     if (getuid() == 0) // whom the limit then counts has no other process

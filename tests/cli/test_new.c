@@ -1,5 +1,5 @@
-// Scenarios to begin with, as launchdyn new writes them: each passes the check without a note, runs
-// to its end without one, and makes a study; nothing is overwritten.
+// Scenarios to begin with, as launchdyn new writes them: each passes the check without a warning,
+// runs to its end without one, and makes a study; nothing is overwritten.
 #include "support/check.h"
 #include "support/shell.h"
 

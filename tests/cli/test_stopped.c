@@ -1,5 +1,5 @@
 // A signal that ends a command while it writes: its code, and no file under its temporary name
-// left. What ends a study's process from within: a sentence, and the study goes on.
+// left. What ends a study's process from within: a sentence, and the study continues.
 #include "support/check.h"
 #include "support/shell.h"
 
@@ -83,7 +83,7 @@ static void test_study_that_dies(void **state)
 }
 
 // The folder in which a study keeps its samples goes while it is at work, or gets another name: it
-// is told, and what has another name goes on there.
+// is given, and what has another name continues there.
 static void test_study_whose_folder_goes(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// Values that are allowed but hardly meant, as a user of the command meets them.
+// Values that are allowed but implausible, as a user of the command meets them.
 #include "support/check.h"
 #include "support/shell.h"
 

@@ -195,7 +195,7 @@ typedef struct printed_rocket {
     const char *name;
     double radius;                // [m] of reference
     double front, rear, length;   // [m] of the tail; 0: none
-    ld_air_surface fins;          // at: their place
+    ld_air_surface fins;          // at: their position
     double tail_slope, fin_slope; // printed
     double tail_at, fin_at;       // printed, behind the front ends [m]
 } printed_rocket;

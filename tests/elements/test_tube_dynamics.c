@@ -160,7 +160,7 @@ static v3 axis_point(double x, const double *q)
     return p;
 }
 
-// Its place in space at time t on the path with constant v, w (in space) and q_dot: R(0) = E.
+// Its position in space at time t on the path with constant v, w (in space) and q_dot: R(0) = E.
 static v3 place(double t, double x, v3 v, v3 w, const double *q, const double *q_dot)
 {
     double now[MODES];

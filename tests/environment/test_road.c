@@ -134,7 +134,7 @@ static void test_far_away(void **state)
     CHECK_BELOW("direct sum at 100 km [m]", direct, 1e-12);
 }
 
-// Where cells meet and where the table ends, height and slope go on.
+// Where cells meet and where the table ends, height and slope continue.
 static void test_continuity(void **state)
 {
     (void)state;

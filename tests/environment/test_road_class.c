@@ -1,5 +1,5 @@
 // The class of roads from their heights: generated roads of each class, random walks, whose density
-// is known in closed form, records that do not tell.
+// is known in closed form, records that do not report.
 #include "environment/road_class.h"
 
 #include "environment/road.h"

@@ -245,7 +245,7 @@ static void test_regular(void **state)
     free(wave);
 }
 
-// The frequency at which the phase omega t - k (x cos + z sin) goes on along a path.
+// The frequency at which the phase omega t - k (x cos + z sin) continues along a path.
 static void test_encounter(void **state)
 {
     (void)state;

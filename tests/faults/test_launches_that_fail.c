@@ -95,7 +95,7 @@ STOPS(receiver_of_rows_fails, 0.0097, LD_ERR_FILE, "the disk is full",
 STOPS(receiver_of_rows_fails_silently, 0, LD_ERR_FILE, "the receiver of the rows stopped the run",
       (ear.fail_at = 1, ear.failure = LD_ERR_FILE, ear.silent = true))
 
-// Turned so hard by the air that its flight would go on by nanoseconds; the launch is told.
+// Turned so hard by the air that its flight would continue by nanoseconds; the launch is reported.
 static void rocket_like_a_parachute(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// Values that are allowed but hardly meant, and their exact notes: the cases are in notes.txt. The
-// project's own scenarios have none.
+// Values that are allowed but implausible, and their exact warnings: the cases are in warnings.txt.
+// The project's own scenarios have none.
 #include "model/model.h"
 #include "support/check.h"
 
@@ -41,7 +41,7 @@ static char *take_case(note_case *c, char *title)
     return line;
 }
 
-// Rules that have had a note.
+// Rules that have had a warning.
 static const plausible_rule *fired[MAX_RULES];
 static int fired_count;
 
@@ -54,7 +54,7 @@ static void remember(void *self, const plausible_note *note)
     fired[fired_count++] = note->rule;
 }
 
-// What is noted of the points of a scenario, as printed.
+// What gives a warning of the points of a scenario, as printed.
 static char *notes_of(const char *file, const char *const *sets, size_t count, bool points)
 {
     ld_model model;
@@ -65,7 +65,7 @@ static char *notes_of(const char *file, const char *const *sets, size_t count, b
     ld_messages_print(&messages, stdout);
     if (status)
         fail_msg("%s is not read", file);
-    plausible_look(&model, remember, NULL);
+    plausible_check(&model, remember, NULL);
     int last = points ? ld_scenario_points(&model) : 0;
     assert_int_equal(ld_scenario_notes(model.source, 0, last, &messages), LD_OK);
     FILE *stream = open_memstream(&printed, &length);
@@ -113,7 +113,7 @@ static int count_rules(void)
     return count;
 }
 
-// Every case prints what notes.txt says, its neighbour nothing; every rule has its case.
+// Every case prints what warnings.txt says, its neighbour nothing; every rule has its case.
 static void test_notes_are_exact(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void test_notes_are_exact(void **state)
     CHECK_BELOW("rules without a case", count_rules() - fired_count, 0);
 }
 
-// The project's own scenarios, at all points of their sweeps, have no notes.
+// The project's own scenarios, at all points of their sweeps, have no warnings.
 static void test_own_scenarios_are_silent(void **state)
 {
     (void)state;
@@ -159,7 +159,8 @@ static void test_own_scenarios_are_silent(void **state)
     globfree(&found);
 }
 
-// Of a sweep each point is looked at, and what is the same at several is noted once, in the sweep.
+// Of a sweep each point is checked, and what is the same at several gives a warning once, in the
+// sweep.
 static void test_points_of_a_sweep(void **state)
 {
     (void)state;

@@ -36,7 +36,7 @@ DOES_NOT_START(weightless, LD_ERR_INPUT,
                "in equilibrium it hangs # m above the road",
                model.gravity = 0)
 
-// The lock lets go when the wheels hit a wall, and the rocket, thrown back by the breech, leaves.
+// The lock releases when the wheels hit a wall, and the rocket, thrown back by the breech, leaves.
 static void drives_against_a_wall(void **state)
 {
     (void)state;
@@ -57,7 +57,7 @@ static void drives_against_a_wall(void **state)
     CHECK_BELOW("energy balance, relative", out.summary.energy.residual_relative, 1e-6);
 }
 
-// A damper so hard that the vehicle, integrated apart, would go on by femtoseconds between two
+// A damper so hard that the vehicle, integrated apart, would continue by femtoseconds between two
 // exchanges.
 static void damper_like_rock(void **state)
 {

@@ -174,7 +174,7 @@ static void test_instants_titles_and_names(void **state)
     free(script);
 }
 
-// Colours tell the runs, dashes the columns; the legend names both.
+// Colours distinguish the runs, dashes the columns; the legend names both.
 static void test_several_runs(void **state)
 {
     (void)state;

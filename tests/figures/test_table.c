@@ -160,7 +160,7 @@ static const char *quoted(const char *text)
     return all;
 }
 
-// Goes on in the text behind what is wanted, which must be there.
+// Continues in the text behind what is requested, which must be there.
 static void find_next(const char **text, const char *figure, const char *format, const char *wanted)
 {
     char all[256];

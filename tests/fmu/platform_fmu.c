@@ -51,7 +51,7 @@ enum {
     MOVES,
     FIXED,         // by steps of MISHAP_AT alone (FMI 3)
     DEAF,          // closes all that is open, and waits
-    MURDER,        // ends the process that asks, and goes on
+    MURDER,        // ends the process that asks, and continues
     MURDER_AT_LAST // the same when it terminates
 };
 

@@ -35,7 +35,7 @@ static ld_status read_with(const char *base, const char *const *sets, size_t cou
     ld_messages messages = {0};
     assert_non_null(kind);
     FILE *to = open_memstream(&whole, &length);
-    if (strstr(base, "external")) // which tells the tube's own frame
+    if (strstr(base, "external")) // which reports the tube's own frame
         after = strchr(after, '\n') + 1;
     fprintf(to, "%.*s%s%s", (int)(kind - text), text, base, after);
     fclose(to);
@@ -189,7 +189,7 @@ static ld_base_frame frame_of(const double x[6], const double u[6])
     return frame;
 }
 
-// Pitch rate at the exit [rad/s] of a launcher that is told at every step.
+// Pitch rate at the exit [rad/s] of a launcher that is reported at every step.
 static double shoot_told(double step)
 {
     on_platform self = begin("  kind: external\n", 1e-9, 0);
@@ -219,7 +219,7 @@ static double shoot_told(double step)
         go_to(run, -self.model.run.lead_in + k * step);
         frame = frame_of(x, u);
         if (!ld_run_is_finished(run))
-            assert_int_equal(ld_run_tell_base(run, &frame, &error), LD_OK);
+            assert_int_equal(ld_run_set_base(run, &frame, &error), LD_OK);
     }
     assert_int_equal(ld_run_end(run, &summary, &error), LD_OK);
     end(&self);
@@ -357,7 +357,7 @@ static void the_tube_moves_as_its_rates_say(void **state)
     assert_int_equal(base_build(&base, &self.model, &error), LD_OK);
     for (double t = 0.01; t < 0.095; t += 0.02) {
         for (int i = 0; i < 3; i++)
-            base.kind->place(&base, t + (i - 1) * h, y, &at[i], &found);
+            base.kind->find_frame(&base, t + (i - 1) * h, y, &at[i], &found);
         m3 turned = m3_mul(at[2].A, m3_transpose(at[0].A));
         const v3 of[4][2] = {{v3_sub(at[2].r, at[0].r), at[1].v},
                              {v3_sub(at[2].v, at[0].v), at[1].a},

@@ -63,7 +63,7 @@ static void a_study_finds_it_from_anywhere(void **state)
     expect_in(shell.out, "3 of 3 samples, 0 failed");
     must("launchdyn study export elsewhere/study --csv 1.csv && launchdyn study export again --csv "
          "2.csv && cmp 1.csv 2.csv");
-    // a sample by itself, from the study's texts, and again from its own
+    // a sample on its own, from the study's texts, and again from its own
     must("launchdyn study -q --again elsewhere/study --only 2 --out one && " ELSEWHERE
          "launchdyn run -q --again ../one/sample-2 --out two && cmp two/history.h5 "
          "../one/sample-2/history.h5");
@@ -105,7 +105,7 @@ static void one_that_has_changed_is_refused(void **state)
     must("mv kept.fmu there/platform2.fmu && launchdyn run -q --again results --out again");
 }
 
-// A name that is not there is told where the file is named, or where the name is.
+// A name that is not there is reported where the file is named, or where the name is.
 static void a_missing_variable_is_told_where_it_is_wanted(void **state)
 {
     (void)state;

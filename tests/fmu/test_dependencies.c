@@ -1,5 +1,5 @@
 // Which unknown depends on which known, as an FMU's description says, against what reacts: each
-// known is moved by itself at instants of a launch, and everything is asked for again.
+// known is moved on its own at instants of a launch, and everything is asked for again.
 // link: -ldl -lsundials_cvode -lsundials_nvecserial
 #include "support/fmu_importer.h"
 
@@ -128,7 +128,7 @@ static void move_inputs(book *self, void *instance)
         double value, moved;
         assert_int_equal(FMU_FUNCTION(self->fmu, fmi3GetFloat64)(instance, &input[k], 1, &value, 1),
                          fmi3OK);
-        moved = value + (strstr(self->name[input[k]], "wrench") ? 100 : 1e-6); // no lock lets go
+        moved = value + (strstr(self->name[input[k]], "wrench") ? 100 : 1e-6); // no lock releases
         assert_int_equal(FMU_FUNCTION(self->fmu, fmi3SetFloat64)(instance, &input[k], 1, &moved, 1),
                          fmi3OK);
         note(self, instance, before, input[k]);
@@ -207,12 +207,12 @@ static bool is_result(const book *self, size_t i)
 }
 
 #define MOVING "examples/reference.yaml --set run.lead_in=0.1s"
-// whose launcher rests where it is told at its start
-// across the vehicle, so that no direction is apart from another
+// whose launcher rests where it is given at its start across the vehicle, so that no direction is
+// apart from another
 #define AT_REST                                                                                    \
     MOVING " --set 'base.speed=0 km/h' --set 'platform.azimuth.stabiliser.command=20 deg'"
 
-// The two together have no algebraic loop: what the vehicle tells is of its states alone.
+// The two together have no algebraic loop: what the vehicle reports is of its states alone.
 static void vehicle_and_launcher_have_no_loop(void **state)
 {
     (void)state;

@@ -41,7 +41,7 @@ typedef struct launch_case {
     const char *scenario;
     const char *set[MOST_SETS];
     int version, rocket;
-    bool rates, instants; // what is looked at: rates at 1e-8, instants (and rates) at 1e-10
+    bool rates, instants; // what is checked: rates at 1e-8, instants (and rates) at 1e-10
 } launch_case;
 
 static unpacked_fmu open_case(const launch_case *self)
@@ -152,8 +152,8 @@ static void record_exit(importer *self)
         recorded[i] = importer_value(self, exit_figures[i]);
 }
 
-// An importer that stops at once where it is told to, and records no more then, has what is known
-// at the end alone: that is told a step later. Until then all stands still.
+// An importer that stops at once where it is asked to, and records no more then, has what is known
+// at the end alone: that is reported a step later. Until then all stands still.
 static void the_end_is_recorded(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void the_end_is_recorded(void **state)
             assert_true(rate[i] == 0);
         assert_false(importer_complete(&by));
         by.ended = false;
-        importer_event(&by); // one that asks then is told there
+        importer_event(&by); // one that asks then is reported there
         assert_true(by.ended);
         importer_get_states(&by);
         assert_memory_equal(x, by.x, by.states * sizeof *x);
@@ -357,7 +357,7 @@ static void write_external(void)
                      0);
 }
 
-// The library is told each 0.1 ms where the base is, and goes on by accelerations.
+// The library is reported each 0.1 ms where the base is, and continues by accelerations.
 static void moves_with_its_base(void **state)
 {
     (void)state;
@@ -372,7 +372,7 @@ static void moves_with_its_base(void **state)
         base = swaying(t);
         assert_int_equal(ld_run_advance(from.run, t, NULL), LD_OK);
         if (!ld_run_is_finished(from.run))
-            assert_int_equal(ld_run_tell_base(from.run, &base, NULL), LD_OK);
+            assert_int_equal(ld_run_set_base(from.run, &base, NULL), LD_OK);
     }
     importer by;
     importer_open(&by, &fmu, 3);
@@ -400,7 +400,8 @@ static void moves_with_its_base(void **state)
     fmu_close(&fmu);
 }
 
-// On a clock of its own the importer lights the rocket in event mode, between two steps of its own.
+// On a clock of its own the importer ignites the rocket in event mode, between two steps of its
+// own.
 static void lights_by_the_input(void **state)
 {
     (void)state;
@@ -414,7 +415,7 @@ static void lights_by_the_input(void **state)
     importer_open(&by, &fmu, 3);
     OK_3(&by, fmi3SetBoolean, &wait, 1, &yes, 1);
     importer_start(&by, 10);
-    assert_true(isinf(by.next)); // nobody knows when
+    assert_true(isinf(by.next)); // no one knows when
     importer_integrate(&by, 1e-8);
     importer_go(&by, 10.05);
     CHECK_BELOW("thrust before the input [N]", importer_value(&by, "thrust"), 0);
@@ -446,7 +447,7 @@ static void take_states(importer *self, int count, double *value)
         value[i] = importer_value(self, outputs[i]);
 }
 
-// Saved before the release, with a step of CVODE under way; both instances go on to beyond it.
+// Saved before the release, with a step of CVODE under way; both instances continue to beyond it.
 static void states_come_back(void **state)
 {
     (void)state;

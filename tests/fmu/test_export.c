@@ -1,6 +1,6 @@
-// FMUs for co-simulation, by an importer of our own: what they tell is what the library tells, to
-// the bit, in steps of any length; states come back to the bit; early returns stand at the events;
-// what is wrong is refused with a line of the log.
+// FMUs for co-simulation, by an importer of our own: what they report is what the library reports,
+// to the bit, in steps of any length; states come back to the bit; early returns stand at the
+// events; what is wrong is refused with a line of the log.
 // link: -ldl
 #include <pthread.h>
 
@@ -250,7 +250,7 @@ static void states_come_back(void **state)
     }
     CHECK_BELOW("outputs that differ after a state came back", unequal, 0);
 
-    // bytes damaged in the run and in what stands before it, and too few; the run goes on
+    // bytes damaged in the run and in what stands before it, and too few; the run continues
     const size_t damaged[] = {size / 2, 20};
     for (int k = 0; k < 3; k++) {
         if (k < 2)
@@ -282,7 +282,7 @@ static void states_come_back(void **state)
     fmu_close(&fmu);
 }
 
-// ---- a base that is told where it is ----
+// ---- an externally driven base ----
 
 static ld_base_frame swaying(double t)
 {
@@ -332,7 +332,7 @@ static void moves_with_its_base(void **state)
         base = swaying(t);
         tell_3(&fmu, instance, &base);
         if (i > 0)
-            assert_int_equal(ld_run_tell_base(by.run, &base, NULL), LD_OK);
+            assert_int_equal(ld_run_set_base(by.run, &base, NULL), LD_OK);
         step_3(&fmu, instance, t, size);
         assert_int_equal(ld_run_advance(by.run, t + size, NULL), LD_OK);
         unequal += count_unequal(&fmu, instance, &by);
@@ -527,7 +527,7 @@ static void refuses_null_pointers(void **state)
     fmu_close(&fmu);
 }
 
-// Values and states can be had, and it can begin anew.
+// Values and states can be had, and it can begin again.
 static void has_ended_when_terminated(void **state)
 {
     (void)state;

@@ -11,13 +11,13 @@ static bool fails;
 static ld_status counted_row(void *run, double *values, ld_error *error)
 {
     rows++;
-    return fails ? ld_fail(error, LD_ERR_NUMERIC, "no row") : real->row(run, values, error);
+    return fails ? ld_fail(error, LD_ERR_NUMERIC, "no row") : real->get_row(run, values, error);
 }
 
-static ld_status counted_tells(void *run, double *numbers, ld_error *error)
+static ld_status counted_outputs(void *run, double *numbers, ld_error *error)
 {
     wrenches++;
-    return real->tells(run, numbers, error);
+    return real->get_outputs(run, numbers, error);
 }
 
 static const ld_summary *counted_summary(const void *run)
@@ -34,8 +34,8 @@ static fmu_instance *open_counted(const unpacked_fmu *fmu, fmu_runner *counted)
         fail_msg("%s", error.text);
     real = self->variables.runner;
     *counted = *real;
-    counted->row = counted_row;
-    counted->tells = counted_tells;
+    counted->get_row = counted_row;
+    counted->get_outputs = counted_outputs;
     counted->summary = counted_summary;
     self->variables.runner = counted;
     return self;
@@ -96,7 +96,7 @@ static void asks_once(void **state)
     fmu_close(&fmu);
 }
 
-// A row that could not be had is asked for again.
+// A row that could not be made is asked for again.
 static void asks_again_after_a_failure(void **state)
 {
     (void)state;

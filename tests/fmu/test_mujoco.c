@@ -699,7 +699,7 @@ static wrench begin_together(launch *launcher, void *c, double pitch)
     return w;
 }
 
-// What both tell of the vehicle's motion, and its largest difference as a share of the largest
+// What both report of the vehicle's motion, and its largest difference as a share of the largest
 // motion.
 typedef struct motion {
     const char *ours, *its;
@@ -726,14 +726,14 @@ static void note_motion(motion *self, const launch *own, void *c)
     self->largest = fmax(self->largest, fabs(ours));
 }
 
-// One exchange: the launcher first, told where its base is, then the vehicle under the mean of the
-// wrenches at both ends.
+// One exchange: the launcher first, reported where its base is, then the vehicle under the mean of
+// the wrenches at both ends.
 static wrench exchange(const launch *told, void *c, const wrench *before, int k, double h,
                        double end_of_step)
 {
     ld_base_frame base = frame_of(c);
     if (k > 0)
-        assert_int_equal(ld_run_tell_base(told->run, &base, NULL), LD_OK);
+        assert_int_equal(ld_run_set_base(told->run, &base, NULL), LD_OK);
     assert_int_equal(ld_run_advance(told->run, end_of_step, NULL), LD_OK);
     wrench after = wrench_of(told), mean = between(before, &after);
     load(c, &mean);

@@ -1,5 +1,6 @@
 // A vehicle and its launcher as two FMUs, exchanged by a simple master of our own (Jacobi: both
-// tell, then both step; inputs stay as they were set): as all together, with order two in its step.
+// report, then both step; inputs stay as they were set): as all together, with order two in its
+// step.
 // ctest: slow
 // link: -ldl
 #include <math.h>
@@ -28,7 +29,7 @@ typedef struct side {
     unpacked_fmu fmu;
     void *instance;
     uint32_t told[FRAME], tells[FRAME];
-    size_t told_count, tells_count;
+    size_t input_count, output_count;
     bool ended;
 } side;
 
@@ -69,12 +70,12 @@ static side side_open(const char *scenario, bool vehicle)
     snprintf(line, sizeof line, "%s --part %s", scenario, vehicle ? "vehicle" : "launcher");
     self.fmu = fmu_open(line, 3);
     self.instance = instance_of(&self.fmu);
-    self.told_count = vehicle ? WRENCH : FRAME;
-    self.tells_count = vehicle ? FRAME : WRENCH;
+    self.input_count = vehicle ? WRENCH : FRAME;
+    self.output_count = vehicle ? FRAME : WRENCH;
     find_references(&self.fmu, vehicle ? "input.wrench" : "input.base",
-                    vehicle ? wrench_names : frame_names, self.told_count, self.told);
+                    vehicle ? wrench_names : frame_names, self.input_count, self.told);
     find_references(&self.fmu, vehicle ? "base" : "wrench", vehicle ? frame_names : wrench_names,
-                    self.tells_count, self.tells);
+                    self.output_count, self.tells);
     return self;
 }
 
@@ -86,15 +87,16 @@ static void side_close(side *self)
 
 static void side_tells(const side *self, double *values)
 {
-    assert_int_equal(FMU_FUNCTION(&self->fmu, fmi3GetFloat64)(
-                         self->instance, self->tells, self->tells_count, values, self->tells_count),
+    assert_int_equal(FMU_FUNCTION(&self->fmu, fmi3GetFloat64)(self->instance, self->tells,
+                                                              self->output_count, values,
+                                                              self->output_count),
                      fmi3OK);
 }
 
 static void side_tell(const side *self, const double *values)
 {
     assert_int_equal(FMU_FUNCTION(&self->fmu, fmi3SetFloat64)(
-                         self->instance, self->told, self->told_count, values, self->told_count),
+                         self->instance, self->told, self->input_count, values, self->input_count),
                      fmi3OK);
 }
 
@@ -141,7 +143,7 @@ static void coupling_open(coupling *self, const char *scenario)
     self->launcher = side_open(scenario, false);
 }
 
-// Both stand at the same time: the launcher's wrench follows the frame that it is told.
+// Both stand at the same time: the launcher's wrench follows the frame that it is given.
 static void exchange(coupling *self)
 {
     double frame[FRAME], wrench[WRENCH];
@@ -274,7 +276,7 @@ static void two_are_the_whole(void **state)
     CHECK_BELOW("against run.coupling at 0.1 ms [mrad/s]", apart[STEPS - 1], 2e-4);
 }
 
-// The vehicle's FMU as base.kind: fmu, which goes on with the wrench by itself.
+// The vehicle's FMU as base.kind: fmu, which continues with the wrench on its own.
 static void vehicle_as_a_base(void **state)
 {
     (void)state;
@@ -337,7 +339,8 @@ static void rest_stays(void **state)
     coupling_close(&two);
 }
 
-// The vehicle by itself rests under the wrench that nobody has told it; parameters change that.
+// The vehicle on its own rests under the wrench that no one has reported it; parameters change
+// that.
 static void begins_under_its_load(void **state)
 {
     (void)state;
@@ -365,7 +368,8 @@ static void begins_under_its_load(void **state)
     side_close(&vehicle);
 }
 
-// A frame whose quaternion is zero is none: as if nobody had told anything, until one is told.
+// A frame whose quaternion is zero is none: as if no one had reported anything, until one is
+// reported.
 static void a_frame_of_zeros_is_not_told(void **state)
 {
     (void)state;

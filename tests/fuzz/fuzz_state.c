@@ -1,4 +1,4 @@
-// Any bytes, given as the state of a run, are refused or make a run that goes on or ends with a
+// Any bytes, given as the state of a run, are refused or make a run that continues or ends with a
 // message. The input is changes of the numbers of a true state: number (2 bytes), value (8 bytes);
 // with a length that this does not divide it is taken for the state itself.
 #include <math.h>

@@ -1,6 +1,6 @@
 // A study's database in which anything was changed is read as far as it goes, or refused with a
 // sentence, by all that read it. The first byte says how the rest changes a true one: '0', as SQL;
-// '1', as SQL, and the digests are written anew; '2', as bytes, each at a place (3 bytes).
+// '1', as SQL, and the digests are written again; '2', as bytes, each at a place (3 bytes).
 #include <stdint.h>
 
 #include <sqlite3.h>
@@ -182,7 +182,7 @@ static bool stop(void *self)
     return false;
 }
 
-// Goes on with it, and stops before a sample runs.
+// Continues with it, and stops before a sample runs.
 static void go_on(void)
 {
     ld_study_counts counts;

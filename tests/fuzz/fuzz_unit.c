@@ -1,6 +1,6 @@
 // Any text as a unit is refused, or has a factor that is a number above zero, and that of its
 // inverse is one over it; an unknown unit is named, and what is suggested for it is a unit. The
-// first byte chooses the unit that is wanted.
+// first byte chooses the unit that is requested.
 #include <math.h>
 #include <stdint.h>
 

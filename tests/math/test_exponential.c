@@ -18,7 +18,7 @@ static void check_near(double value, double expected, double away)
 // Two oscillators, one of them stiff, about which L knows all or but a part.
 typedef struct oscillators {
     double k[2], c, force, coupling;
-    bool moves; // about a point that goes on at 30 m/s
+    bool moves; // about a point that continues at 30 m/s
 } oscillators;
 
 static int slope(double t, const double *y, double *y_dot, void *user)
@@ -57,7 +57,7 @@ static exponential *make(const oscillators *of, double longest)
     return self;
 }
 
-// Goes to t; the largest error told on the way.
+// Goes to t; the largest error reported on the way.
 static double go(exponential *self, const oscillators *of, int rung, double t_end, double y[N])
 {
     double drift[N] = {of->moves ? 30 : 0}, f[N], y_end[N], f_end[N], error[N], most = 0;

@@ -1,5 +1,5 @@
 // The elementary functions with the bits of no processor: against those of long double over random
-// arguments of all sizes; what the C standard says of zeros, infinities and what is no number.
+// arguments of all sizes; what the C standard says of zeros, infinities and what is not a number.
 #include "math/functions.h"
 
 #include <float.h>
@@ -142,7 +142,7 @@ static void test_large_angles(void **state)
     CHECK_BELOW("sine and cosine of large angles, units", worst, 0.8);
 }
 
-// Zeros, infinities and what is no number alike, the sign of zeros included; else near.
+// Zeros, infinities and what is not a number alike, the sign of zeros included; else near.
 static bool alike(double a, double b)
 {
     if (a == 0 || b == 0 || !isfinite(a) || !isfinite(b))

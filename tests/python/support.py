@@ -66,7 +66,7 @@ def resting_frame(height=0.0):
 
 
 def external():
-    """The fixed launcher on a base that is told."""
+    """The fixed launcher on an externally driven base."""
     return ld.Scenario.read(FIXED, {"base.kind": "external", "base.elevation": None})
 
 

@@ -26,7 +26,7 @@ def blocks():
 
 
 def run(block, line, names):
-    """Runs statement by statement; what wants a package that is not here is left out."""
+    """Runs statement by statement; what requires a package that is not here is left out."""
     for statement in ast.parse("\n" * (line - 1) + block).body:
         code = compile(ast.Module([statement], []), DOCUMENT.name, "exec")
         try:

@@ -1,4 +1,4 @@
-"""Where the library is looked for, and what is said where it is not."""
+"""Where the library is searched, and what is said where it is not."""
 
 import os
 import shutil

@@ -65,7 +65,7 @@ class TestViews(Case):
                 found = [response.on_road(name, speed=v)[name].rms for v in (5, 6.25, 7.5)]
             np.testing.assert_array_equal(speeds["response-rms"][name], found)
         drawn = read.response_view("pitch_rate", exit=True, draws=2).tables["response-exit"]
-        scatter = read.response(rub=True).exit("pitch_rate", draws=2)["pitch_rate"]
+        scatter = read.response(friction=True).exit("pitch_rate", draws=2)["pitch_rate"]
         self.assertEqual([drawn["pitch_rate.mean"][0], drawn["pitch_rate.deviation"][0]],
                          list(scatter))
 
@@ -90,7 +90,7 @@ class TestViews(Case):
 
 class TestInterrupted(Case):
     def press_at(self, module, call):
-        """Ctrl-C is pressed as the library asks so often whether to go on."""
+        """Ctrl-C is pressed as the library asks so often whether to continue."""
         told, calls = GO_ON, []
 
         def pressing(ask):

@@ -111,7 +111,7 @@ class TestRun(Case):
 
 
 class TestInterrupted(Case):
-    """Ctrl-C while the library goes on; it comes at a call of it, however fast that is."""
+    """Ctrl-C while the library continues; it comes at a call of it, however fast that is."""
 
     def press_at(self, name, call):
         """Ctrl-C is pressed at that call of a function of the library."""

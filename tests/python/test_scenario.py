@@ -1,4 +1,4 @@
-"""Scenarios: read, set and told; what is wrong with its place."""
+"""Scenarios: read, set and described; what is wrong with its place."""
 
 import copy
 import math

@@ -149,7 +149,7 @@ class TestStudy(Case):
         self.assertIn(kept, (2, 3))
         mock.patch.stopall()
         counts = []
-        with mock.patch("launchdyn.study.LOOK_UP", 1e-4):  # before there is something to tell
+        with mock.patch("launchdyn.study.LOOK_UP", 1e-4):  # before there is something to report
             data = samples.run(self.folder / "study", threads=2, progress=counts.append)
         self.assertEqual((counts[-1].done, counts[-1].now), (40, 40 - kept))
         self.assertEqual({told.samples for told in counts}, {40})

@@ -206,7 +206,7 @@ async function checkKeys(page, run) {
 // ---- the replay ----
 
 // Draws an instant, in seconds from ignition, and reads the picture: how many of its points look
-// like the tube and like the rocket, a sum that tells pictures apart.
+// like the tube and like the rocket, a sum that distinguishes pictures.
 function look(page, code = "") {
   return page.evaluate((change) => {
     const replay = window.launchdyn.current, gl = replay.stage.renderer.getContext();
@@ -515,7 +515,7 @@ async function checkControls(page, run) {
     `${printed}, ${after}`);
 }
 
-// The page is already there, as wide as its plots have been looked at.
+// The page is already there, as wide as its plots have been viewed.
 async function checkReplay(page, run) {
   console.log("its replay");
   await page.evaluate(() => document.querySelectorAll("details").forEach((node) => { node.open = false; }));
@@ -531,7 +531,7 @@ async function checkReplay(page, run) {
   await checkSaved(page);
 }
 
-// The plots alone, with a note, where there is no geometry in the results.
+// The plots alone, with a warning, where there is no geometry in the results.
 async function checkWithoutGeometry(browser, run) {
   const old = join(run.out, "old.html");
   writeFileSync(old, readFileSync(run.file, "utf8").replace(/<script type="text\/plain" id="replay">[^<]*<\/script>/, ""));
@@ -903,7 +903,7 @@ async function checkHostile(browser) {
   await leave(broken);
 }
 
-// A launch near the vertical: what is singular is marked in the table, below what is not, and the answer notes it.
+// A launch near the vertical: what is singular is marked in the table, below what is not, and the answer warns of it.
 async function checkVertical(browser) {
   console.log("a launch near the vertical");
   const run = runOf("fixed.yaml", "--set", "base.elevation=89.99 deg"), page = await open(browser, run.file, { replay: false });

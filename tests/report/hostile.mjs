@@ -23,7 +23,7 @@ const hidden = /[\p{Cc}\p{Zl}\p{Zp}\p{Default_Ignorable_Code_Point}\p{Noncharact
 const visible = (text) => text.replace(hidden, (c) => [...Buffer.from(c)].map((byte) =>
   `\\x${byte.toString(16).padStart(2, "0")}`).join(""));
 
-// A scenario of our own; JSON's strings are YAML's, with the escapes that YAML wants.
+// A scenario of our own; JSON's strings are YAML's, with the escapes that YAML requires.
 function scenario(name, lines) {
   const file = join(folder, name);
   writeFileSync(file, lines.join("\n") + "\n");
@@ -88,7 +88,7 @@ async function checkPicture(page, flight, out) {
   launchdyn("plot", out, other, "--what", "flight-speed", "-o", picture);
   const texts = await named();
   const found = Array.isArray(texts) && texts.find((text) => text.startsWith("=1+1"));
-  checkSame("plot: the name of a run", found, visible(title).replace("]]>", "]]\\x3e").trim()); // ]]> is no text of XML
+  checkSame("plot: the name of a run", found, visible(title).replace("]]>", "]]\\x3e").trim()); // ]]> is not text of XML
   const again = `${out}\udcff`.replace(/\udcff/, ""), odd = Buffer.concat([Buffer.from(join(folder, "a")), Buffer.from([0xff, 0x62])]);
   symlinkSync(again, odd);
   execFileSync("sh", ["-c", `"$1" plot "$2" "$(printf '%s/a\\377b' "$3")" --what flight-speed -o "$4"`, "sh",
@@ -98,7 +98,7 @@ async function checkPicture(page, flight, out) {
     folders.includes(join(folder, "a\\xffb")), folders.length);
 }
 
-// Summaries that are not ours, without the digests that would tell: the page shows what it can and says so.
+// Summaries that are not ours, without the digests that would show it: the page shows what it can and says so.
 async function checkSummaries(browser) {
   console.log("summaries by hand");
   const out = join(folder, "other"), file = join(out, "report.html"), code = parts[1];

@@ -94,7 +94,7 @@ async function checkNarrow(browser, runs) {
   await leave(page);
 }
 
-// Titles that differ name the runs; one that would be code is text, a folder that is none is noted.
+// Titles that differ name the runs; one that would be code is text, a folder that is none gives a warning.
 async function checkHostile(browser) {
   console.log("titles and folders that would be code");
   const code = "</script><img src=x onerror=window.owned=1>";

@@ -190,7 +190,7 @@ async function checkSweep(browser) {
   await leave(page);
 }
 
-// Where nothing tells factors apart, clouds stand beside the answer, and fill the first screen with it at every width.
+// Where nothing distinguishes factors, clouds stand beside the answer, and fill the first screen with it at every width.
 async function checkWithout(browser) {
   console.log("a study without sensitivities");
   const scenario = join(folder, "seeds_in_a_file_whose_name_has_no_place_where_a_line_might_break.yaml"), out = join(folder, "seeds");

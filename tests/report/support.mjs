@@ -90,7 +90,7 @@ export async function open(browser, file, { width = 1200, dark = false, replay =
   const context = await browser.newContext(
     { viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light" });
   const page = await context.newPage();
-  page.setDefaultTimeout(0); // a busy machine is no failure
+  page.setDefaultTimeout(0); // a busy machine is not a failure
   Object.assign(page, { file, errors: [], requests: [] });
   page.on("pageerror", (error) => page.errors.push(error.message));
   page.on("console", (message) => {
@@ -145,7 +145,7 @@ export async function checkInjected(browser, file) {
     document.getElementById("injected-form").submit();
   });
   const sent = await page.evaluate(() => fetch("data:,x").then(() => "sent", () => "refused"));
-  // What the policy stops it tells later, a form's sending last: wait for it, and no longer than need be.
+  // What the policy stops it reports later, a form's sending last: wait for it, and no longer than need be.
   const directives = ["script-src-elem", "script-src-attr", "style-src-elem", "style-src-attr", "base-uri",
     "form-action", "connect-src", "object-src"];
   await page.waitForFunction((names) => names.every((name) => window.violations.some((text) => text.startsWith(name))),
@@ -175,7 +175,7 @@ export async function unfold(page) {
   await drawn(page);
 }
 
-// A picture of the window, where pictures are wanted.
+// A picture of the window, where pictures are requested.
 export async function picture(page, name) {
   if (LD_SCREENSHOTS) await page.screenshot({ path: join(LD_SCREENSHOTS, name) });
 }

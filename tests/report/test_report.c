@@ -500,7 +500,7 @@ static void test_part_of_a_run(void **state)
     free(page);
 }
 
-// A title that no report has room for is told as what it is, of one run and of several.
+// A title that no report has room for is reported as what it is, of one run and of several.
 static void test_title_without_room(void **state)
 {
     (void)state;
@@ -523,7 +523,7 @@ static void test_title_without_room(void **state)
     assert_non_null(strstr(error.text, "the title has 2000000 bytes"));
 }
 
-// Runs laid over each other: what is not there is noted and left out, titles stay texts.
+// Runs laid over each other: what is not there is left out with a warning, titles stay texts.
 static void test_runs_over_each_other(void **state)
 {
     (void)state;

@@ -317,10 +317,10 @@ static void expect_report(const char *line, ld_status status, const char *text, 
 static void test_what_is_said(void **state)
 {
     (void)state;
-    static const char *const broken[] = {"{", "", "[]", "null", "{}"};
+    static const char *const report_broken[] = {"{", "", "[]", "null", "{}"};
     for (int i = 0; i < 5; i++) {
         char line[64];
-        snprintf(line, sizeof line, "printf '%s' >run/summary.json", broken[i]);
+        snprintf(line, sizeof line, "printf '%s' >run/summary.json", report_broken[i]);
         expect_report(line, LD_ERR_INPUT, "run is damaged: summary.json is damaged: ",
                       "No summary: summary.json is damaged: ");
     }
@@ -339,12 +339,12 @@ static void test_what_is_said(void **state)
                   "summary.json is damaged: its text does not match the digest in its last line",
                   "No summary");
     expect_report("rm run/*", LD_ERR_INPUT, "no results in ", "There is no history.h5");
-    // what is beside it is not looked at
+    // what is beside it is not checked
     expect_report("rm run/summary.json; touch run/my.txt", LD_OK, "",
                   "No summary: summary.json is missing");
 }
 
-// A summary of a version without digests: its members are looked at, no more.
+// A summary of a version without digests: its members are checked, no more.
 #define EARLIER                                                                                    \
     "jq 'del(.format, .files, .digest)' run/summary.json >earlier && mv earlier run/summary.json"
 

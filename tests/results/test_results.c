@@ -482,7 +482,7 @@ static void test_two_at_once(void **state)
         expect_unfinished(output, "another program has removed ");
         assert_string_equal(printed_by("ls -A %s", in(here, "both")), earlier);
     }
-    // without locks it is told at the end
+    // without locks it is given at the end
     no_locks = true;
     assert_int_equal(ld_output_open(in(here, "both"), &here->model, false, &output, &error), LD_OK);
     assert_int_equal(ld_output_open(in(here, "both"), &here->model, false, &second, &error), LD_OK);
@@ -494,7 +494,7 @@ static void test_two_at_once(void **state)
     write_launch(here, "both", true, 50);
 }
 
-// Whoever has to do with a folder that is gone is told.
+// Whoever has to do with a folder that is gone is reported.
 static void test_folder_removed(void **state)
 {
     place *here = *state;

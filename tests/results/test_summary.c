@@ -416,7 +416,7 @@ static void say_peaks(const finished_run *run, column_book *book, const char *at
     expect_at(book, at, "max_slot_force", largest_of(&run->tube, "slot.force"));
 }
 
-// By so short steps the rates are as good as their tolerance, of which three times are told.
+// By so short steps the rates are as good as their tolerance, of which three times are reported.
 static double say_exit_error(const finished_run *run, column_book *book, const char *at)
 {
     double rates =

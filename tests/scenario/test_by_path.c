@@ -1,4 +1,4 @@
-// Values of a model by path: set as by --set, told as numbers, texts and tables.
+// Values of a model by path: set as by --set, reported as numbers, texts and tables.
 #include "model/fields/source.h"
 #include "support/check.h"
 
@@ -120,7 +120,7 @@ static void check_place(const ld_model *model, const char *const *sets, size_t c
     ld_messages_free(&messages);
 }
 
-// Overrides are numbered as they were given at once; of those before, the text tells which it is.
+// Overrides are numbered as they were given at once; of those before, the text says which it is.
 static void test_messages_number_what_was_set_at_once(void **state)
 {
     (void)state;

@@ -63,7 +63,7 @@ static void count_typo(void *self, const char *word, const char *typo)
     count->short_right += brief && right;
 }
 
-// The key suggested; none where the typo is another key, of which nobody can know.
+// The key suggested; none where the typo is another key, of which no one can know.
 static const char *suggest_key(const void *among, const char *typo)
 {
     return field_find(among, typo) ? NULL : scenario_key_meant(among, typo);

@@ -1,4 +1,5 @@
-// Units against UDUNITS with the same units told in its own words: what is taken, and the factors.
+// Units against UDUNITS with the same units reported in its own words: what is taken, and the
+// factors.
 // link: -ludunits2
 #include "support/check.h"
 

@@ -1,4 +1,4 @@
-// Launchers in words, as `check` tells them.
+// Launchers in words, as `check` reports them.
 #include "support/check.h"
 
 #include <stdio.h>

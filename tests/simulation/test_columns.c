@@ -422,8 +422,8 @@ static void say_pressure(instant *at, double power[LAUNCHER_MOST_WORKS])
         force * (v3_dot(m3_column(under.A, 0), rocket.v) - v3_dot(m3_column(rear.A, 0), rear.v));
 }
 
-// The only slide: way back of its section on the base, its force; power of its stop's damper apart
-// from that of its own damping and friction.
+// The only slide: travel back of its section on the base, its force; power of its stop's damper
+// apart from that of its own damping and friction.
 static void say_recoil(instant *at, const ld_support *support, double power[LAUNCHER_MOST_WORKS])
 {
     const ld_recoil *slide = &support->recoil;

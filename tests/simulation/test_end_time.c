@@ -122,7 +122,7 @@ static void ends_on_the_ground(void **state)
     model_clear(&model);
 }
 
-// Below the ground nothing can fly; that the launcher goes on is all that was asked for.
+// Below the ground nothing can fly; that the launcher continues is all that was asked for.
 static void leaves_below_the_ground(void **state)
 {
     (void)state;

@@ -215,7 +215,8 @@ typedef struct tally {
     int launches, beyond[TOLERANCES];
 } tally;
 
-// How far the rates at the exit are off, against what is told of them; of launches that get out.
+// How far the rates at the exit are off, against what is reported of them; of launches that get
+// out.
 static void count_launch(int number, ld_model *model, const char *kind, tally *count)
 {
     static ld_summary fine, run[TOLERANCES];
@@ -280,7 +281,7 @@ static void rates_from_vehicles_too(void **state)
     check_tally(&count, " from vehicles");
 }
 
-// The run itself is the same to the bit with the estimate and without, which then tells nothing.
+// The run itself is the same to the bit with the estimate and without, which then reports nothing.
 static void run_stays_as_it_is(void **state)
 {
     (void)state;

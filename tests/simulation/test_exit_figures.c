@@ -90,8 +90,8 @@ static void read_place(const recorded_run *run, const ld_base *base, size_t row,
     };
 }
 
-// Rows from first to last, backwards from the state at the exit: the place of O1 from its velocity,
-// the roll from the spin.
+// Rows from first to last, backwards from the state at the exit: the position of O1 from its
+// velocity, the roll from the spin.
 static void rebuild(const recorded_run *run, const ld_base *base, const ld_rocket_summary *rocket,
                     size_t first, size_t last, place *path)
 {
@@ -258,7 +258,7 @@ static void test_columns_of_the_second_rocket(void **state)
     check_run("sequence.yaml", sets, 2, 1, bound);
 }
 
-// A slot of twice the angle turns the rocket by more than half a turn: its roll goes on counting.
+// A slot of twice the angle turns the rocket by more than half a turn: its roll continues counting.
 static void test_columns_beyond_half_a_turn(void **state)
 {
     (void)state;

@@ -205,7 +205,7 @@ static ld_status take_row(void *self, const double *values, size_t count, ld_err
     return LD_OK;
 }
 
-// Of a flight with rows every step is looked at, of others those that may hold something.
+// Of a flight with rows every step is checked, of others those that may hold something.
 static void check_with_rows(const flown *alone, flown *looked)
 {
     const ld_sink sink = {.begin = take_begin, .row = take_row};

@@ -12,7 +12,7 @@
 
 enum { ROWS = 10000, COLUMNS = 32 };
 
-// The columns that are looked at, in this order.
+// The columns that are checked, in this order.
 static const char *const wanted[COLUMNS] = {
     "t",
     "base.x",

@@ -145,7 +145,7 @@ static void interpolation_lies_on_the_solution(void **state)
     integrator_free(self);
 }
 
-// Going on over stops costs no evaluation: each step takes six, seven stages and the first known.
+// Continuing over stops costs no evaluation: each step takes six, seven stages and the first known.
 static void a_stop_is_no_restart(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void failing_equations_are_reported(void **state)
     integrator_free(self);
 }
 
-// ---- saved at every step's end, loaded into another one, gone on with: the same bits
+// ---- saved at every step's end, loaded into another one, continued with: the same bits
 
 enum { STATES = 7, EVENTS = 3, MOST_STEPS = 500, MOST_BYTES = 4096 };
 
@@ -193,7 +193,7 @@ typedef struct problem {
     integrator_method method;
     double rtol, max_step, end;
     bool stops; // at each tenth of a second, and others that only rounding parts from a step's end
-    bool returns; // after an event the state jumps and the integration starts anew
+    bool returns; // after an event the state jumps and the integration starts again
     bool events;
     int calls, event_calls; // of the equations and the events
 } problem;

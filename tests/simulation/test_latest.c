@@ -52,7 +52,7 @@ static bool is_right(bench *b)
     return memcmp(given, expected, size) == 0;
 }
 
-// Nothing has been asked: time and travel 0 are no answer.
+// Nothing has been asked: time and travel 0 are not answer.
 static void the_first_answer_is_computed(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 // Measures against closed forms, against rows of 2 us of the same run, and against what the summary
-// tells otherwise; on the march, in a sequence, with windows that begin and end with the run.
+// reports otherwise; on the march, in a sequence, with windows that begin and end with the run.
 #include "model/model.h"
 #include "support/check.h"
 
@@ -357,7 +357,7 @@ static void test_flight_rows(void **state)
     model_clear(&model);
 }
 
-// What is asked for changes nothing else, and a window that does not come is noted.
+// What is asked for changes nothing else, and a window that does not come gives a warning.
 static void test_nothing_else(void **state)
 {
     (void)state;

@@ -124,7 +124,7 @@ static void the_pose_of_the_base_does_not_count(void **state)
     CHECK_WITHIN("smallest damping ratio of a passive tube", least, 0, 1);
 }
 
-// ---- light dampers: the complex eigenvalues tell what they do, to the square of the damping ---
+// ---- light dampers: the complex eigenvalues say what they do, to the square of the damping ---
 
 static void lighten(ld_tubes *tubes, double light)
 {

@@ -117,7 +117,7 @@ static void draw_vehicle_model(uint64_t seed, ld_model *model)
     model->base = vehicle.base;
     model->platform = vehicle.platform;
     for (int k = 0; k < model->tubes.support_count; k++)
-        model->tubes.support[k].clamped = 0; // goes with a base that goes where it is told
+        model->tubes.support[k].clamped = 0; // goes with a base with a given motion
     vehicle.base.vehicle.road.coherence = (ld_table){0};
     vehicle.platform.azimuth.stabiliser.command = (ld_table){0};
     vehicle.platform.elevation.stabiliser.command = (ld_table){0};

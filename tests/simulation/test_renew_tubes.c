@@ -11,7 +11,7 @@
 #include "state/simulation.h"
 
 // All forms of sections, a mass at a point, modes of every kind; the first instants are enough to
-// tell one tube from another.
+// distinguishes tubes.
 static const char text[] = "include: fixed.yaml\n"
                            "tubes:\n"
                            "  layout: {rows: 2, columns: 2, pitch: 0.3 m, first: 0.1 0.2 0.3 m}\n"
@@ -121,7 +121,7 @@ static void change_all(changes *self, const field_block *block, const void *base
     }
 }
 
-// What is no number: choices, how many entries a list has.
+// What is not a number: choices, how many entries a list has.
 static void change_the_rest(changes *self)
 {
     ld_model model = *self->nominal;

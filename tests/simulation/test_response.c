@@ -283,13 +283,13 @@ static void wheels_carry_what_is_put_on_the_tube(void **state)
     reference_model_free(&model);
 }
 
-// What a force does to the place of another one, that one does to the place of the first (Maxwell,
-// Rayleigh), at any frequency.
+// What a force does to the position of another one, that one does to the position of the first
+// (Maxwell, Rayleigh), at any frequency.
 static void loads_and_places_change_sides(void **state)
 {
     (void)state;
     static const struct {
-        const char *load, *at; // its place's speed
+        const char *load, *at; // its position's speed
     } of[] = {
         {"tip.force_y", "tip.vy"},
         {"tip.force_z", "tip.vz"},
@@ -398,7 +398,7 @@ static void friction_of_hinges_is_a_viscous_one(void **state)
     ld_response *response = respond(&model, NAN, NAN);
     choose(response, rates, 3);
     assert_int_equal(ld_response_on_road(response, speed, plain, NULL, &error), LD_OK);
-    assert_int_equal(ld_response_rub(response, true, &error), LD_OK);
+    assert_int_equal(ld_response_friction(response, true, &error), LD_OK);
     assert_int_equal(ld_response_on_road(response, speed, rub, NULL, &error), LD_OK);
     ld_response_free(response);
     ld_turret *turret[2] = {&model.platform.azimuth, &model.platform.elevation};
@@ -427,7 +427,7 @@ static void friction_of_hinges_is_a_viscous_one(void **state)
     reference_model_free(&model);
 }
 
-// ---- a base that goes where it is told ----
+// ---- a base with a given motion ----
 
 static void a_slow_base_takes_all_along(void **state)
 {

@@ -131,7 +131,7 @@ static void test_a_run_that_stops(void **state)
     ld_model_free(model);
 }
 
-// The same rows by a sink of one's own: a sum over each column, and what is told of it.
+// The same rows by a sink of one's own: a sum over each column, and what is reported of it.
 enum { MOST = 400 };
 typedef struct row_sums {
     const ld_column *columns;
@@ -219,7 +219,7 @@ static void test_rows_are_kept(void **state)
     ld_model_free(model);
 }
 
-// A sink that wants no flights gets none of their rows.
+// A sink that requires no flights gets none of their rows.
 static void test_rows_of_flights_only_where_wanted(void **state)
 {
     (void)state;

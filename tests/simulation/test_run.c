@@ -135,7 +135,7 @@ static void advance(ld_run *run, double t)
         fail_msg("%s", error.text);
 }
 
-// Saves the run, ends it, and goes on with what was saved.
+// Saves the run, ends it, and continues with what was saved.
 static ld_run *exchange(ld_run *run, const ld_simulation *simulation, const ld_run_options *options,
                         size_t *most)
 {
@@ -386,7 +386,7 @@ static void reading_is_the_row(void **state)
     for (size_t i = 0; i + 1 < expected.rows; i += 3) {
         const double *wanted = expected.values + i * count;
         if (happens_at(&all, wanted[0]))
-            continue; // that row tells what was before
+            continue; // that row says what was before
         advance(run, wanted[0]);
         assert_int_equal(ld_run_row(run, values, NULL), LD_OK);
         differ += memcmp(values, wanted, count * sizeof *values) != 0;
@@ -405,8 +405,8 @@ static void reading_is_the_row(void **state)
 
 // ---- inputs
 
-// Told at the start that it `waits`, then when.
-static ld_rocket_summary lit_at(const ld_model *model, double when, double told_at, bool waits)
+// Reported at the start that it `waits`, then when.
+static ld_rocket_summary lit_at(const ld_model *model, double when, double inputs_at, bool waits)
 {
     static ld_summary summary;
     ld_simulation *simulation;
@@ -416,10 +416,10 @@ static ld_rocket_summary lit_at(const ld_model *model, double when, double told_
     ld_run *run = begin_run(simulation, NULL);
     if (waits && ld_run_ignite(run, INFINITY, &error))
         fail_msg("%s", error.text);
-    advance(run, told_at);
+    advance(run, inputs_at);
     if (ld_run_ignite(run, when, &error))
         fail_msg("%s", error.text);
-    assert_int_equal(ld_run_ignite(run, told_at - 1e-3, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_run_ignite(run, inputs_at - 1e-3, &error), LD_ERR_INPUT);
     advance(run, INFINITY);
     if (ld_run_end(run, &summary, &error))
         fail_msg("%s", error.text);
@@ -427,7 +427,7 @@ static ld_rocket_summary lit_at(const ld_model *model, double when, double told_
     return summary.rocket[0];
 }
 
-// Told later, at once, or from infinity: the launch of a scenario that is lit then.
+// Reported later, at once, or from infinity: the launch of a scenario that is ignited then.
 static void ignition_is_an_input(void **state)
 {
     (void)state;

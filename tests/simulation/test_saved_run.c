@@ -1,4 +1,4 @@
-// A run that is saved and loaded goes on with the bits of one that was not interrupted: rows and
+// A run that is saved and loaded continues with the bits of one that was not interrupted: rows and
 // summary, at 1598 instants, among them 1 ns before and after each event; in another process too.
 // What is not its state is refused.
 // ctest: slow
@@ -23,7 +23,7 @@ enum { MOST_SETS = 7, MOST_BYTES = 1 << 17, SPREAD = 120, MOST_INSTANTS = 300 };
 
 static const struct saved_case {
     const char *name, *example, *sets[MOST_SETS];
-    double ignite; // [s] an input: when it is lit in place of its firing time; 0: none
+    double ignite; // [s] an input: when it is ignited in place of its firing time; 0: none
 } cases[] = {
     {"fixed", "fixed.yaml", {"run.output_step.tube=0.5 ms"}, 0},
     {"ship",
@@ -261,7 +261,7 @@ static void end_like(const course *self, ld_run *run, const comparison *rows)
     assert_int_equal(rows->wrong, 0);
 }
 
-// The same run once more, looked at and saved at all the instants, which does not change it.
+// The same run once more, checked and saved at all the instants, which does not change it.
 static void save_at_instants(course *self)
 {
     comparison rows = {.expected = &self->rows};
@@ -299,7 +299,7 @@ static void course_free(course *self)
     free(self->at);
 }
 
-// ---- saved, loaded, gone on with
+// ---- saved, loaded, continued with
 
 static ld_run *load(const course *self, const instant *at, const ld_run_options *options)
 {
@@ -351,7 +351,7 @@ static uint64_t hash(uint64_t so_far, const void *bytes, size_t size)
     return so_far;
 }
 
-// The other process: loads what lies in the file, goes on to the end, prints a hash of all that
+// The other process: loads what lies in the file, continues to the end, prints a hash of all that
 // came.
 static int other_process(int number, const char *path)
 {

@@ -331,7 +331,7 @@ static void second_clamped_or_on_a_rail(void **state)
     }
 }
 
-// What the balance has missed so far stays missed when the next tube takes its place.
+// What the balance has missed so far stays missed when the next tube takes its position.
 static void the_balance_goes_on(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-// A vehicle alone under the wrench that it is told, and with our launcher on it, step by step: the
-// error against the run of all together falls with the square of the step.
+// A vehicle alone under the given wrench, and with our launcher on it, step by step: the error
+// against the run of all together falls with the square of the step.
 #include <math.h>
 #include <string.h>
 
@@ -82,7 +82,7 @@ typedef struct coupled {
     double moved; // [m], [rad] the farthest that tube or rocket stood from the start
 } coupled;
 
-// A vehicle and a launcher of the same model, each by itself.
+// A vehicle and a launcher of the same model, each on its own.
 typedef struct pair {
     ld_model alone; // shares what the model holds
     ld_simulation *whole, *launcher;
@@ -115,15 +115,15 @@ static ld_summary pair_end(pair *self)
     return summary;
 }
 
-// They tell each other how they stand, then both go on to t.
+// They report each other how they stand, then both continue to t.
 static void pair_step(pair *self, double t)
 {
     ld_base_wrench wrench;
     ld_error error = {0};
     assert_int_equal(ld_vehicle_run_frame(self->vehicle, &self->frame, &error), LD_OK);
-    assert_int_equal(ld_run_tell_base(self->run, &self->frame, &error), LD_OK);
+    assert_int_equal(ld_run_set_base(self->run, &self->frame, &error), LD_OK);
     assert_int_equal(ld_run_base_wrench(self->run, &wrench, &error), LD_OK);
-    assert_int_equal(ld_vehicle_run_tell_wrench(self->vehicle, &wrench, &error), LD_OK);
+    assert_int_equal(ld_vehicle_run_set_wrench(self->vehicle, &wrench, &error), LD_OK);
     if (ld_run_advance(self->run, t, &error) || ld_vehicle_run_advance(self->vehicle, t, &error))
         fail_msg("%s", error.text);
 }
@@ -231,27 +231,27 @@ static void saved_and_loaded(void **state)
     marching_model(&model);
     ld_simulation *simulation = simulation_of(&model);
     assert_int_equal(ld_vehicle_run_begin(simulation, &run, &error), LD_OK);
-    assert_int_equal(ld_vehicle_run_tell_wrench(run, &wrench, &error), LD_OK);
+    assert_int_equal(ld_vehicle_run_set_wrench(run, &wrench, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_advance(run, -0.07, &error), LD_OK);
     wrench.force[1] -= 500;
-    assert_int_equal(ld_vehicle_run_tell_wrench(run, &wrench, &error), LD_OK);
+    assert_int_equal(ld_vehicle_run_set_wrench(run, &wrench, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_advance(run, -0.06, &error), LD_OK);
     const ld_base_wrench now = {{90, -9700, 30}, {5, 20, -9100}},
                          wrong = {{0, 1e4, 0}, {0, 0, 100}};
-    assert_int_equal(ld_vehicle_run_tell_wrench(run, &now, &error), LD_OK);
+    assert_int_equal(ld_vehicle_run_set_wrench(run, &now, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_save(run, bytes, sizeof bytes, &size, &error), LD_OK);
     printf("    %zu bytes\n", size);
     if (ld_vehicle_run_load(simulation, bytes, size, &again, &error))
         fail_msg("%s", error.text);
     for (int i = 0; i < 2; i++) {
         ld_vehicle_run *one = i ? again : run;
-        if (i == 1) { // told again at the same time, it was not told before
-            assert_int_equal(ld_vehicle_run_tell_wrench(one, &wrong, &error), LD_OK);
-            assert_int_equal(ld_vehicle_run_tell_wrench(one, &now, &error), LD_OK);
+        if (i == 1) { // set again at the same time, it was not reported before
+            assert_int_equal(ld_vehicle_run_set_wrench(one, &wrong, &error), LD_OK);
+            assert_int_equal(ld_vehicle_run_set_wrench(one, &now, &error), LD_OK);
         }
         assert_int_equal(ld_vehicle_run_advance(one, -0.05, &error), LD_OK);
         wrench.force[1] = -8000;
-        assert_int_equal(ld_vehicle_run_tell_wrench(one, &wrench, &error), LD_OK);
+        assert_int_equal(ld_vehicle_run_set_wrench(one, &wrench, &error), LD_OK);
         assert_int_equal(ld_vehicle_run_advance(one, 0.01, &error), LD_OK);
         assert_int_equal(ld_vehicle_run_row(one, row[i], &error), LD_OK);
     }
@@ -292,7 +292,7 @@ static void refuses(void **state)
     ld_simulation *simulation = simulation_of(&model);
     assert_int_equal(ld_vehicle_run_begin(simulation, &run, &error), LD_OK);
     ld_base_wrench wrench = {{0, NAN, 0}, {0, 0, 0}};
-    assert_int_equal(ld_vehicle_run_tell_wrench(run, &wrench, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_vehicle_run_set_wrench(run, &wrench, &error), LD_ERR_INPUT);
     assert_string_equal(error.text, "the vehicle received a wrench that is not finite");
     assert_int_equal(ld_vehicle_run_advance(run, 0.01, &error), LD_OK);
     assert_int_equal(ld_vehicle_run_advance(run, 0, &error), LD_ERR_INPUT);

@@ -197,7 +197,7 @@ static void test_nothing_moves(void **state)
         assert_int_equal(hit[i], 1);
 }
 
-// The factor of a matrix is what its product says, and a matrix that is none is told.
+// The factor of a matrix is what its product says, and a matrix that is none is reported.
 static void test_factorise(void **state)
 {
     (void)state;

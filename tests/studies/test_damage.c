@@ -1,7 +1,7 @@
 // Damaged studies: flipped bits and cut ends in study.db, shards and study.pending, and databases
-// changed by hand. Each is told, or changes nothing of what is shown and exported; what is intact
-// can be exported, and the rest is run again to the same bits. LD_DAMAGE: how many flips and cuts
-// (default 60).
+// changed by hand. Each is reported, or changes nothing of what is shown and exported; what is
+// intact can be exported, and the rest is run again to the same bits. LD_DAMAGE: how many flips
+// and cuts (default 60).
 // link: -lsqlite3
 #include "support/sealed_study.h"
 #include "support/study_run.h"
@@ -239,8 +239,8 @@ static void leave(const ld_study *study)
     assert_true(WIFSIGNALED(status));
 }
 
-// Damages one file of what was left: what is shown then is told, or part of the whole; what is run
-// on becomes the whole.
+// Damages one file of what was left: what is shown then is reported, or part of the whole; what is
+// run on becomes the whole.
 static void damage_left(const ld_study *study, const char *file, const told *good, int *wrong)
 {
     size_t size;

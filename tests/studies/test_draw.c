@@ -1,4 +1,4 @@
-// Drawn values: their distributions, hypercubes, and that none depends on what else is drawn.
+// Sampled values: their distributions, hypercubes, and that none depends on what else is sampled.
 #include "model/fields/factor.h"
 #include "model/model.h"
 #include "support/check.h"
@@ -118,8 +118,8 @@ static ld_model read_text(const char *factors)
     return model;
 }
 
-// P(Z <= z | a < Z < b) of the value drawn for u is u, on whichever side of the mean a and b lie: a
-// value rises with its u. Counted from the nearer tail, where Phi has its digits.
+// P(Z <= z | a < Z < b) of the value sampled for u is u, on whichever side of the mean a and b lie:
+// a value rises with its u. Counted from the nearer tail, where Phi has its digits.
 static void test_between_anywhere(void **state)
 {
     (void)state;
@@ -243,7 +243,7 @@ static void test_factors_of_a_scenario(void **state)
     model_clear(&two);
 }
 
-// Several keys under one name: drawn once by the name, set all; the printed scenario reads back.
+// Several keys under one name: sampled once by the name, set all; the printed scenario reads back.
 static void test_several_keys(void **state)
 {
     (void)state;
@@ -280,7 +280,7 @@ static void test_several_keys(void **state)
     model_clear(&model);
 }
 
-// The longest step of sample 3, whose tolerance is drawn.
+// The longest step of sample 3, whose tolerance is sampled.
 static double longest_step(const char *factors, double given, double *tolerance)
 {
     ld_model model = read_text(factors);
@@ -318,7 +318,7 @@ static void test_longest_step(void **state)
     assert_true(longest_step(neither, 0, &drawn) == 2e-4 && drawn == 1e-5);
 }
 
-// Sample 3 of a scenario beside the examples, of which `number` tells something.
+// Sample 3 of a scenario beside the examples, of which `number` reports something.
 static double drawn_number(const char *text, double (*number)(const study_sample *sample))
 {
     ld_model model;
@@ -365,8 +365,8 @@ static double ground(const study_sample *sample)
     return sample->model->environment.ground_height;
 }
 
-// What the scenario leaves to follow from other numbers follows from those that are drawn: of every
-// rocket, of those aboard that are not fired, of the sample; what it says stays.
+// What the scenario leaves to follow from other numbers follows from those that are sampled: of
+// every rocket, of those aboard that are not fired, of the sample; what it says stays.
 static void test_what_follows(void **state)
 {
     (void)state;

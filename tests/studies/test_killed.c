@@ -115,7 +115,7 @@ static void remove_killed(void)
 }
 
 // After a kill; `reported`: samples that were said to be kept. One that came too late says nothing:
-// the study begins anew, and the next kill comes earlier, down to at once.
+// the study begins again, and the next kill comes earlier, down to at once.
 static void look(kill_log *log, const ld_study *study, bool hit, int64_t reported)
 {
     bool now[SAMPLES + 1];

@@ -54,7 +54,7 @@ static void test_published(void **state)
     CHECK_NEAR("  p", by.deviation_chance, 0.6960300559458137, 1e-13);
 }
 
-// One group tells no interval, two none of the deviation, equal values neither; nor do no values.
+// One group reports no interval, two none of the deviation, equal values neither; nor do no values.
 static void test_too_few(void **state)
 {
     (void)state;

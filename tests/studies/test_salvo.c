@@ -1,5 +1,5 @@
 // Salvos from the vehicle: rockets drawn alike are a sequence of such rockets, the platform carries
-// what was drawn, and a drawn interval moves the ignitions.
+// what was sampled, and a drawn interval moves the ignitions.
 // ctest: slow
 #include "model/model.h"
 #include "support/check.h"
@@ -71,7 +71,7 @@ static void test_rockets_alike(void **state)
     (void)state;
     compare("nothing scattered: results unlike the sequence's", LAUNCHER THREE,
             LAUNCHER THREE SCATTER "    rocket.mass_error: {discrete: [0 kg]}\n");
-    // every rocket aboard is fired, so that all of them are drawn
+    // every rocket aboard is fired, so that all of them are sampled
 #define FULL "tubes: {layout: {rows: 1, columns: 3}}\nfiring: {order: [3, 1, 2], interval: 0.5 s}\n"
     compare("each 2 kg more and 1 % stronger: unlike the sequence's",
             LAUNCHER FULL "rocket: {mass_error: 2 kg, motor: {thrust_scale: 1.01}}\n",

@@ -96,7 +96,7 @@ static void test_linear(void **state)
         {"40 samples of 6", 40, 6, 0, 2, 1.5, 0, 93, 97, 95},
         {"10 hypercubes of 20", 200, 1, 20, 2, 1.5, 0, 93, 97, 95},
         {"5 hypercubes of 100, noise", 500, 1, 100, 1, 1, 3, 93, 97, 95},
-        // falls short: ten draws of what is drawn once a sample
+        // falls short: ten draws of what is sampled once a sample
         {"10 samples of 18", 10, 18, 0, 1, 2, 2, 83, 97, 95},
     };
     for (size_t i = 0; i < sizeof made / sizeof *made; i++)

@@ -280,8 +280,8 @@ static int closes(sqlite3_vfs *system, int microseconds)
     return microseconds;
 }
 
-// A merge waits for who reads the study: it changes the kind of the journal, which nobody else may
-// have open then. What is told where they go on for ever.
+// A merge waits for who reads the study: it changes the kind of the journal, which no one else may
+// have open then. What is reported where they continue for ever.
 static void merge_beside_a_reader(void)
 {
     ld_error error;
@@ -346,7 +346,7 @@ static void test_shards(void **state)
     ld_study_free(other);
 }
 
-// Samples that cannot run are kept with what was the matter, and the study goes on.
+// Samples that cannot run are kept with what was the matter, and the study continues.
 static void test_failures(void **state)
 {
     (void)state;
@@ -497,7 +497,7 @@ static void test_shown_to_others(void **state)
     ld_study_free(study);
 }
 
-// A stopping rule is looked at after 20 samples or five hypercubes, then after a quarter more each
+// A stopping rule is checked after 20 samples or five hypercubes, then after a quarter more each
 // time, in whole hypercubes.
 static void test_looks(void **state)
 {
@@ -507,12 +507,12 @@ static void test_looks(void **state)
     const ld_scatter lhs = {.samples = 320, .plan = LD_PLAN_LHS, .replicates = 20};
     int64_t at = 0, in_cubes = 0;
     for (int i = 0; i < 5; i++) {
-        at = until_next_look(&plain, at);
-        in_cubes = until_next_look(&lhs, in_cubes);
+        at = until_next_check(&plain, at);
+        in_cubes = until_next_check(&lhs, in_cubes);
         assert_int_equal(at, random[i]);
         assert_int_equal(in_cubes, cubes[i]);
     }
-    assert_int_equal(until_next_look(&plain, 900), 1000);
+    assert_int_equal(until_next_check(&plain, 900), 1000);
 }
 
 int main(void)

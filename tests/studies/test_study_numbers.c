@@ -1,5 +1,5 @@
-// What a program gets of a study: points, columns, values, statistics as numbers. Samples run by
-// themselves, and sums written here, say the same.
+// What a program gets of a study: points, columns, values, statistics as numbers. Samples run on
+// their own, and sums written here, say the same.
 #include "support/study_run.h"
 
 #include "launchdyn/study_data.h"
@@ -44,7 +44,7 @@ static void test_points_and_columns(void **state)
     ld_study_data_close(data);
 }
 
-// Range [m] and thrust scale of a sample that runs by itself.
+// Range [m] and thrust scale of a sample that runs on its own.
 static double run_alone(const ld_study *study, int64_t number, double *scale)
 {
     ld_sample *sample;

@@ -26,7 +26,7 @@ static double number_of(const ld_study *study, int64_t sample, double *elevation
     return error_drawn;
 }
 
-// Samples go round the points, at all of which the same numbers are drawn.
+// Samples go round the points, at all of which the same numbers are sampled.
 static void test_points(void **state)
 {
     (void)state;
@@ -90,8 +90,8 @@ static void test_point_without_a_slot(void **state)
     ld_study_free(study);
 }
 
-// More samples go on with the numbers that follow; a sweep alone has one sample a point; a part of
-// it is a shard; a point that cannot be is refused before anything runs.
+// More samples continue with the numbers that follow; a sweep alone has one sample a point; a part
+// of it is a shard; a point that cannot be is refused before anything runs.
 static void test_other_sweeps(void **state)
 {
     (void)state;
@@ -133,14 +133,14 @@ static void test_looks(void **state)
     static const int64_t looks[] = {20, 25, 32, 40, 50, 63, 79, 99, 100, 100};
     int64_t n = 0;
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++) {
-        n = until_next_look(&plain, n);
+        n = until_next_check(&plain, n);
         assert_int_equal(n, looks[i]);
     }
     ld_scatter lhs = {.present = true, .samples = 96, .plan = LD_PLAN_LHS, .replicates = 12};
     static const int64_t cubes[] = {40, 56, 72, 96, 96};
     n = 0;
     for (size_t i = 0; i < sizeof cubes / sizeof *cubes; i++) {
-        n = until_next_look(&lhs, n);
+        n = until_next_check(&lhs, n);
         assert_int_equal(n, cubes[i]);
     }
 }
@@ -176,7 +176,7 @@ static void test_until(void **state)
     assert_int_equal(study_data_open(in("until"), &data, &error), LD_OK);
     const study_column *t_rear = study_data_find(&data, "t_rear", &nearest);
     int64_t earlier = 0, last = counts.samples / 2;
-    for (int64_t n = 0; (n = until_next_look(&ld_study_model(study)->scatter, n)) < last;)
+    for (int64_t n = 0; (n = until_next_check(&ld_study_model(study)->scatter, n)) < last;)
         earlier = n;
     assert_true(earlier > 0);
     assert_int_equal(study_data_half_width(&data, t_rear,

@@ -543,7 +543,7 @@ void dense_flight(const ld_model *model, double size, dense_flight_end *end)
         height_of(&d, t + h, y, &height, &rate);
         end->apogee = fmax(end->apogee, height);
         if (height <= ground && rate < 0) {
-            // the last step anew, until it ends on the ground
+            // the last step again, until it ends on the ground
             for (int i = 0; i < 6; i++) {
                 h += (ground - height) / rate;
                 memcpy(y, before, sizeof y);

@@ -365,8 +365,8 @@ static bool take_step(launch_run *launch, double t, double h, const double *x, c
 // Unknowns: base-relative place and turning of R (6), q, y_S, z_S, psi, theta, lock force on the
 // rocket (on the breech: s less the start), slot force or roll moment, on surfaces that the lock
 // does not keep from rolling gamma. Residuals: all generalised forces. On surfaces soft springs
-// [N/m, and N m/rad] hold the rocket in its centred place; they are let go in steps, the last hold
-// what no surface does.
+// [N/m, and N m/rad] hold the rocket in its centred place; they are released in steps, the last
+// hold what no surface does.
 typedef struct balance_problem {
     const launch_run *launch;
     dense_conditions on;

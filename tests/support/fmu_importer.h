@@ -1,5 +1,5 @@
 // An importer for model exchange, FMI 2.0 and 3.0: CVODE takes the steps. It does what the standard
-// says: a step's end is told, a root or a time event is an event, after which it begins anew.
+// says: a step's end is reported, a root or a time event is an event, after which it begins again.
 #ifndef LD_TESTS_SUPPORT_FMU_IMPORTER_H
 #define LD_TESTS_SUPPORT_FMU_IMPORTER_H
 
@@ -23,7 +23,7 @@ struct importer {
     int version;
     void *instance;
     importer_input input;
-    void (*sample)(importer *self); // records, where it goes on from and before events; or NULL
+    void (*sample)(importer *self); // records, where it continues from and before events; or NULL
     size_t states, indicators;
     double t, x[IMPORTER_MOST], next; // [s] where it is; when the next time event comes
     bool ended;

@@ -85,7 +85,7 @@ static inline ld_mstmm_loop planar_pin(const char *name, const char *first, doub
                            .axis = {0, 0, 1}};
 }
 
-// ---- A01: a point mass on a rod of 1 m, let go at the horizontal
+// ---- A01: a point mass on a rod of 1 m, released at the horizontal
 
 static inline benchmark simple_pendulum(void)
 {

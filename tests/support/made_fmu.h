@@ -163,7 +163,7 @@ static inline void make_platform(const char *path, int version, const char *trai
     free(description);
 }
 
-// One that tells its place by other names.
+// One that reports its place by other names.
 static inline void make_nameless_platform(const char *path)
 {
     char *description = describe_platform(2, "");

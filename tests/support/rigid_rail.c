@@ -179,7 +179,8 @@ static double station(const rail_run *run, double t, const body_state *x, double
     return v3_dot(m3_column(base.A, 0), v3_sub(place, base.r));
 }
 
-// Positive once the next thing has happened: the lock lets go, the front shoe leaves, the rear one.
+// Positive once the next thing has happened: the lock releases, the front shoe leaves, the rear
+// one.
 static double happened(const rail_run *run, int phase, double t, double middle, const body_state *x)
 {
     const ld_rocket *rocket = &run->model->rocket;

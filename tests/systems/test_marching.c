@@ -514,7 +514,7 @@ static void test_parked_hold(void **context)
     double eta = 0, v = 0, eta_dot;
     marching_output out;
     for (int i = 0; i < 30000; i++) {
-        // semi-implicit Euler: its place of rest is exact
+        // semi-implicit Euler: its position of rest is exact
         double side = side_by_side(&f, v3_make(0, 0, v), eta, 0, &eta_dot, &out);
         v += h * (load + side) / mass;
         eta += h * v;

@@ -56,7 +56,7 @@ static ld_base sampled(rows_form form, size_t count)
     return base;
 }
 
-// Largest errors of place and attitude, of velocities and of accelerations, at places all over.
+// Largest errors of position and attitude, of velocities and of accelerations, at places all over.
 static void errors_of(rows_form form, size_t count, double worst[3])
 {
     ld_base model = sampled(form, count);

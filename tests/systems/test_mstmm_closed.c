@@ -1,5 +1,5 @@
-// Closed loops: redundant constraints, singular poses and what does not close are told; prescribed
-// motion, copies, vibration, beams in loops.
+// Closed loops: redundant constraints, singular poses and what does not close are reported;
+// prescribed motion, copies, vibration, beams in loops.
 #include "launchdyn/mstmm.h"
 
 #include <string.h>
@@ -139,7 +139,7 @@ static void test_what_does_not_close(void **state)
     ld_mstmm_free(system);
 }
 
-// Flat, a parallelogram has two freedoms: only speeds of one of its branches go on.
+// Flat, a parallelogram has two freedoms: only speeds of one of its branches continue.
 static void test_singular_pose(void **state)
 {
     (void)state;
@@ -224,8 +224,8 @@ static void turn_crank(double t, double *q, double *u, double *u_dot, void *cont
     u_dot[0] = 0;
 }
 
-// A driven crank, slider on the x axis: closed form of its place, speed and the crank's torque by
-// energy.
+// A driven crank, slider on the x axis: closed form of its position, speed and the crank's torque
+// by energy.
 static void test_driven_crank(void **state)
 {
     (void)state;
@@ -266,7 +266,7 @@ static void test_driven_crank(void **state)
     }
     CHECK_BELOW("crank's power against the energy's rate [W]",
                 reaction[5] * u[0] - (T[1] - T[0]) / (2 * h), 1e-7);
-    // let go, it is a mechanism of one freedom
+    // released, it is a mechanism of one freedom
     ld_mstmm_prescribe(system, 0, 0);
     if (ld_mstmm_assemble(system, q, NULL, NULL, &found, &error))
         fail_msg("%s", error.text);

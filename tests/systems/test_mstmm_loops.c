@@ -263,7 +263,7 @@ static void draw_mechanism(mechanism *m, int wanted, uint64_t *seed)
             draw_loop(m, seed);
         if (m->count == wanted)
             condition = close_speeds(m);
-        // without a solution the condition is no number, or 0
+        // without a solution the condition is not a number, or 0
     } while (m->count < wanted || !(condition >= 1 && condition < 1e6L && isfinite(m->tree.u[0])));
 }
 
@@ -308,7 +308,7 @@ static real solve_dense(const mechanism *m, real *u_dot)
     return condition;
 }
 
-// Part of M u_dot - h that the joints' forces, as told, do not give: their virtual work on both
+// Part of M u_dot - h that the joints' forces, as reported, do not give: their virtual work on both
 // sides at the second point.
 static double forces_missing(const mechanism *m, ld_mstmm *system, const real *u_dot)
 {

@@ -544,7 +544,7 @@ static void test_torque_limit(void **context)
         double yaw, z, torque, z_dot;
         bool limited;
     } row[] = {
-        {-0.1, 0, limit, 4e5, true},           // error 0.1: 4e5 N m wanted
+        {-0.1, 0, limit, 4e5, true},           // error 0.1: 4e5 N m requested
         {0.1, 0, -limit, -4e5, true},          //
         {-0.001, 1e4, 1.4e4, 4e3, false},      //
         {-0.001, limit, limit, 0, true},       // z at its limit, e of the same sign
@@ -601,7 +601,7 @@ static void test_friction_and_locks(void **context)
     tear_down(&f);
 }
 
-// A state that is not finite is told, not passed on.
+// A state that is not finite is reported, not passed on.
 static void test_not_finite(void **context)
 {
     (void)context;

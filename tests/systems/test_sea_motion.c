@@ -65,7 +65,7 @@ static base_frame frame_of(const base_system *base, double t)
 {
     base_frame frame;
     base_found found;
-    base->kind->place(base, t, NULL, &frame, &found);
+    base->kind->find_frame(base, t, NULL, &frame, &found);
     return frame;
 }
 

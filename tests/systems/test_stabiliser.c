@@ -70,7 +70,7 @@ static int rhs(double t, const double *y, double *y_dot, void *user)
     return orientating_evaluate(&f->system, &input, y, &motion, y_dot, &output);
 }
 
-// Goes on from time `from` to time `to`.
+// Continues from time `from` to time `to`.
 static void follow(fixture *f, double from, double to)
 {
     ld_error error;

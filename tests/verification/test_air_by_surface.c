@@ -74,7 +74,7 @@ static const char by_surface[] =
     "-5]]}]}}\n"
     "flight: {position: 0 0 0 m, velocity: 200 0 0 m/s}\n";
 
-// Piecewise monotone cubic of a column, by itself.
+// Piecewise monotone cubic of a column, on its own.
 static double given(const ld_table *table, size_t column, double mach)
 {
     curves one;

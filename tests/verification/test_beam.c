@@ -896,7 +896,7 @@ static void moving_mass(void **state)
     }
 }
 
-// Without 2 v w_dot' + v^2 w'' the answer is another one than 1.82459: the table tells whether they
+// Without 2 v w_dot' + v^2 w'' the answer is another one than 1.82459: the table says whether they
 // are there. The wrong answer converges slowly only: 1.7925, 1.79612, 1.79763, 1.7984 with 12, 24,
 // 40, 60 sine modes (computed apart).
 static void moving_mass_without_convective_terms(void **state)

@@ -56,7 +56,7 @@ static void starts_at_the_tip(void **state)
 }
 
 // Without a lock: what of the weight the tube's axis takes, as deep as the contact says, for as
-// long as nothing lights the motor.
+// long as nothing ignites the motor.
 static void rests(void **state)
 {
     (void)state;
@@ -103,7 +103,7 @@ static void upright_model(ld_model *model)
     model->run.tolerance = 1e-9;
 }
 
-// Let go at no depth: s = s_0 - m g/k (1 - cos(omega t)).
+// Released at no depth: s = s_0 - m g/k (1 - cos(omega t)).
 static void falls_as_on_a_spring(void **state)
 {
     (void)state;

@@ -240,7 +240,7 @@ static void check_projection(ld_contact_law law, int axial, const char *what)
     dense_launch_create(&dense, &model, &system->tube.flexible);
     start_strongly(&run, system);
     uint64_t seed = 20260713;
-    double momentum = 0, angular_momentum = 0, energy = 0, broken = 0, left = 0;
+    double momentum = 0, angular_momentum = 0, energy = 0, report_broken = 0, left = 0;
     for (int k = 0; k < 100; k++) {
         dense_launch_output before, after;
         double *V = run.state + system->layout.V, was[RUN_STATES];
@@ -255,10 +255,10 @@ static void check_projection(ld_contact_law law, int axial, const char *what)
             fmax(angular_momentum, change3(after.angular_momentum, before.angular_momentum));
         double taken = kinetic_of_difference(&run, &dense, was);
         energy = fmax(energy, fabs((after.kinetic + taken) / before.kinetic - 1));
-        broken = fmax(broken, fabs(before.slot_drift));
+        report_broken = fmax(report_broken, fabs(before.slot_drift));
         left = fmax(left, fabs(after.slot_drift));
     }
-    printf("  %s: drift before the projection up to %.2f m/s\n", what, broken);
+    printf("  %s: drift before the projection up to %.2f m/s\n", what, report_broken);
     CHECK_BELOW("drift after it [m/s]", left, 1e-14);
     CHECK_BELOW("linear momentum", momentum, 3e-15);
     CHECK_BELOW("angular momentum", angular_momentum, 3e-15);

@@ -1,4 +1,4 @@
-// The dense check is right by itself: closed forms, balances and numerical derivatives.
+// The dense check is right on its own: closed forms, balances and numerical derivatives.
 #include "model/model.h"
 #include "support/check.h"
 

@@ -1,4 +1,4 @@
-// The independent vehicle (support/dense_vehicle.h) by itself: its equations against their own
+// The independent vehicle (support/dense_vehicle.h) on its own: its equations against their own
 // energy and kinematics, equilibrium and poles of the reference vehicle.
 #include "support/check.h"
 

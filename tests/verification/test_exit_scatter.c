@@ -1,5 +1,5 @@
 // By what a road scatters the exit, from the linear response, against whole runs: on a road so low
-// that a launch is linear in it, and on the very roads that are drawn; and the states in which
+// that a launch is linear in it, and on the very roads that are sampled; and the states in which
 // these launches begin.
 // ctest: slow
 #include <stdlib.h>
@@ -65,7 +65,7 @@ static ld_response *respond(const ld_model *model)
     return response;
 }
 
-// The exit's figures are y + Re(Y e^(i phase)): runs at four phases tell |Y|, the deviation over
+// The exit's figures are y + Re(Y e^(i phase)): runs at four phases report |Y|, the deviation over
 // all of them is |Y|/sqrt(2).
 static void a_sine_scatters_the_exit(void **state)
 {

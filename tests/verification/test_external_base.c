@@ -1,5 +1,5 @@
-// A base that is told where it is (model.md, section 2): what a motion that is known through and
-// through loses when it is told at instants alone, and the wrench that comes back.
+// An externally driven base (model.md, section 2): what a motion that is known through and
+// through loses when it is given at instants alone, and the wrench that comes back.
 // ctest: slow
 #include <stdlib.h>
 
@@ -50,7 +50,7 @@ static ld_base_frame frame_at(const known_motion *self, double t)
     base_frame frame;
     base_found unused;
     ld_base_frame told;
-    self->base.kind->place(&self->base, t, NULL, &frame, &unused);
+    self->base.kind->find_frame(&self->base, t, NULL, &frame, &unused);
     v3_store(told.position, frame.r);
     memcpy(told.quaternion, &frame.q, sizeof told.quaternion);
     v3_store(told.velocity, frame.v);
@@ -95,7 +95,7 @@ static ld_run *begin(const ld_simulation *simulation, const ld_base_frame *first
     return run;
 }
 
-// Goes on to the end, telling the base at `first` [s] and every `step` from there on.
+// Continues to the end, telling the base at `first` [s] and every `step` from there on.
 static void go_on(ld_run *run, const known_motion *motion, double first, double step)
 {
     ld_error error;
@@ -103,7 +103,7 @@ static void go_on(ld_run *run, const known_motion *motion, double first, double 
         ld_status status = ld_run_advance(run, first + k * step, &error);
         ld_base_frame now = frame_at(motion, ld_run_time(run));
         if (!status && !ld_run_is_finished(run))
-            status = ld_run_tell_base(run, &now, &error);
+            status = ld_run_set_base(run, &now, &error);
         if (status)
             fail_msg("%s", error.text);
     }
@@ -118,7 +118,7 @@ static ld_summary end(ld_run *run)
     return summary;
 }
 
-// A run that is told every `step` [s] so that `one` is among the instants.
+// A run that is reported every `step` [s] so that `one` is among the instants.
 static ld_summary run_told(const known_motion *motion, ld_extrapolation extrapolation, double one,
                            double step)
 {
@@ -140,7 +140,7 @@ static double difference(const ld_summary *a, const ld_summary *b)
     return 1e3 * fmax(fabs(p->pitch_rate - q->pitch_rate), fabs(p->yaw_rate - q->yaw_rate));
 }
 
-// ---- a motion told at instants ----
+// ---- a motion reported at instants ----
 
 static void a_ship_told_every_millisecond(void **state)
 {
@@ -228,8 +228,8 @@ static double worst(const ld_summary *a, const ld_summary *b)
     return fmax(fmax(speed, instant), difference(a, b));
 }
 
-// Told once it goes on as it stands; told again and again it is where it was. The integrator's
-// steps differ: its error norm is a mean over the states, of which what was told are twenty more.
+// Reported once it continues as it stands; set again and again it is where it was. The integrator's
+// steps differ: its error norm is a mean over the states, of which what was given are twenty more.
 static void a_base_told_to_stand_is_fixed(void **state)
 {
     (void)state;
@@ -302,7 +302,7 @@ static void wrench_on_deck(known_motion *motion, double off[2])
         double t = 0.05 * i;
         ld_base_frame now = frame_at(motion, t);
         assert_int_equal(ld_run_advance(run, t, &error), LD_OK);
-        assert_int_equal(ld_run_tell_base(run, &now, &error), LD_OK);
+        assert_int_equal(ld_run_set_base(run, &now, &error), LD_OK);
         assert_int_equal(ld_run_base_wrench(run, &told, &error), LD_OK);
         independent_wrench(run, propagator_state(run->propagator), &known);
         for (int k = 0; k < 3; k++) {
@@ -335,7 +335,7 @@ static void the_wrench_is_the_supports_on_decks(void **state)
 
 // ---- state ----
 
-// What it was told last is part of the state: loaded it goes on with the same bits.
+// What it was given last is part of the state: loaded it continues with the same bits.
 static void told_base_is_saved(const known_motion *ship)
 {
     static unsigned char bytes[65536];
@@ -349,20 +349,20 @@ static void told_base_is_saved(const known_motion *ship)
         double t = 0.01 * i;
         ld_base_frame now = frame_at(ship, t);
         assert_int_equal(ld_run_advance(run, t, &error), LD_OK);
-        assert_int_equal(ld_run_tell_base(run, &now, &error), LD_OK);
+        assert_int_equal(ld_run_set_base(run, &now, &error), LD_OK);
     }
     assert_int_equal(ld_run_save(run, bytes, sizeof bytes, &size, &error), LD_OK);
     assert_int_equal(ld_run_load(simulation, NULL, bytes, size, &loaded, &error), LD_OK);
     double from = ld_run_time(run) + 0.01;
-    // told again at the same time, it was not told before
+    // set again at the same time, it was not reported before
     ld_base_frame now = frame_at(ship, from), wrong = now;
     wrong.velocity[1] += 0.1;
     wrong.rate[2] -= 0.01;
     assert_int_equal(ld_run_advance(run, from, &error), LD_OK);
     assert_int_equal(ld_run_advance(loaded, from, &error), LD_OK);
-    assert_int_equal(ld_run_tell_base(run, &now, &error), LD_OK);
-    assert_int_equal(ld_run_tell_base(loaded, &wrong, &error), LD_OK);
-    assert_int_equal(ld_run_tell_base(loaded, &now, &error), LD_OK);
+    assert_int_equal(ld_run_set_base(run, &now, &error), LD_OK);
+    assert_int_equal(ld_run_set_base(loaded, &wrong, &error), LD_OK);
+    assert_int_equal(ld_run_set_base(loaded, &now, &error), LD_OK);
     go_on(run, ship, from + 0.01, 0.01);
     go_on(loaded, ship, from + 0.01, 0.01);
     ld_summary all = end(run), part = end(loaded);
@@ -414,18 +414,18 @@ static void what_makes_no_frame_is_refused(void **state)
 
     run = begin(simulation, &frame);
     assert_int_equal(ld_run_advance(run, -0.1, &error), LD_OK);
-    fails(ld_run_tell_base(run, &bad, &error), &error,
+    fails(ld_run_set_base(run, &bad, &error), &error,
           "the base received a position or a motion that is not finite");
     bad = frame;
     bad.quaternion[0] *= 1.1;
-    assert_int_equal(ld_run_tell_base(run, &bad, &error), LD_ERR_INPUT);
+    assert_int_equal(ld_run_set_base(run, &bad, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "the base is told a quaternion of length 1.09"));
     fails(ld_run_advance(run, -0.15, &error), &error,
           "the run is at t = -0.1 s and cannot continue to t = -0.15 s");
-    // it goes on all the same
-    assert_int_equal(ld_run_tell_base(run, &frame, &error), LD_OK);
+    // it continues all the same
+    assert_int_equal(ld_run_set_base(run, &frame, &error), LD_OK);
     assert_int_equal(ld_run_advance(run, INFINITY, &error), LD_OK);
-    fails(ld_run_tell_base(run, &frame, &error), &error,
+    fails(ld_run_set_base(run, &frame, &error), &error,
           "the launch is over: the base's motion can no longer be set");
     end(run);
     ld_simulation_free(simulation);

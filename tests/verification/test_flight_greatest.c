@@ -141,8 +141,8 @@ static void test_columns(void **state)
     model_clear(&model);
 }
 
-// A rocket whose centre of pressure lies before its mass centre is noted, unless it spins fast
-// enough: J_x^2 p^2 = 4 J_t M'.
+// A rocket whose centre of pressure lies before its mass centre gives a warning, unless it spins
+// fast enough: J_x^2 p^2 = 4 J_t M'.
 static void test_unstable(void **state)
 {
     (void)state;

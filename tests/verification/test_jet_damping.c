@@ -57,7 +57,7 @@ static momentum held(const flight_system *system, double t, const double *y)
     v3 w = m3_apply_transposed(m3_rotation_x(y[FLIGHT_ROLL]), v3_from(y + FLIGHT_W));
     momentum out;
     out.linear = v3_axpy(m3_apply(A, now.flow), now.m, v3_from(y + FLIGHT_V));
-    // the gas flows along the axis through c: it has no moment of momentum about c by itself
+    // the gas flows along the axis through c: it has no moment of momentum about c on its own
     out.angular =
         v3_add(v3_cross(v3_from(y + FLIGHT_R), out.linear), m3_apply(A, m3_apply(now.J, w)));
     return out;
@@ -142,7 +142,7 @@ static void test_momentum(void **state)
     model_clear(&model);
 }
 
-// Without the option the momentum is not all there: what the test above sees is no nothing.
+// Without the option the momentum is not all there: what the test above sees is not a nothing.
 static void test_without(void **state)
 {
     (void)state;
@@ -164,8 +164,8 @@ static void test_without(void **state)
     model_clear(&model);
 }
 
-// A rate across the axis with the mass centre at rest: J' = const, so
-// w = w_0 (J/J_0)^-(1 + mu (l^2 + R^2/4)/J'); a roll by itself with l^2 + R^2/4 put for R^2/2.
+// A rate across the axis with the mass centre at rest: J' = const, so w = w_0 (J/J_0)^-(1 + mu (l^2
+// + R^2/4)/J'); a roll on its own with l^2 + R^2/4 put for R^2/2.
 static void test_decay(void **state)
 {
     (void)state;

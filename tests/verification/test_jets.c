@@ -135,7 +135,7 @@ static double force_at(const launch_state *self, double t, const double *y, v3 f
     base_frame tube;
     base_found unused;
     const base_system *base = &self->launcher.base;
-    base->kind->place(base, t, y + self->launcher.base_at, &tube, &unused);
+    base->kind->find_frame(base, t, y + self->launcher.base_at, &tube, &unused);
     v3 mouth = v3_add(tube.r, v3_scale(self->model->tubes.length, m3_column(tube.A, 0)));
     double distance = v3_norm(v3_sub(course_at(from, along, t), mouth));
     return -full * (1 - distance / reach) * m3_column(tube.A, 0).x;
@@ -347,7 +347,7 @@ static void rockets_in_sequence(void **state)
     double worst = 0, greatest = 0;
     int felt[2] = {0};
     printf("    out at %.4f and %.4f s\n", out[0], out[1]);
-    // the tube of the second takes its place as soon as the first one is out
+    // the tube of the second takes its position as soon as the first one is out
     for (int k = 0; k < seen->rows; k++) {
         const double *now = seen->row[k];
         double t = now[0], expected = 0;
@@ -379,8 +379,8 @@ static void rockets_in_sequence(void **state)
     reference_model_free(&model);
 }
 
-// The subsystems apart: the platform has gone on to the next exchange, up to 0.1 ms, when a rocket
-// leaves.
+// The subsystems apart: the platform has continued to the next exchange, up to 0.1 ms, when a
+// rocket leaves.
 static void subsystems_apart(void **state)
 {
     (void)state;

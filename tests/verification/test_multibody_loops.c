@@ -26,7 +26,8 @@ static state run(const benchmark *b, double tolerance, double t_0, double t_1, c
 static void test_four_bars(void **unused)
 {
     (void)unused;
-    // N = 2: place and velocity of B_0 at 10 s, Richardson's extrapolation of the published steps
+    // N = 2: position and velocity of B_0 at 10 s, Richardson's extrapolation of the published
+    // steps
     const double expected[4] = {0.32845810, 0.94451854, 1.42305143, -0.49486881};
     const double top[3] = {0, 1, 0};
     benchmark b = four_bars(2);

@@ -50,7 +50,7 @@ static void test_terminal_speed(void **state)
 }
 
 // Without gravity m v' = -rho A v^2/2, so 1/v grows by rho/(2 m) times the integral of A: nothing
-// for 0.5 s, a drogue that fills in 0.4 s, and a main that takes its place at 1.5 s in 2 s, the
+// for 0.5 s, a drogue that fills in 0.4 s, and a main that takes its position at 1.5 s in 2 s, the
 // motor's last second pushing nothing.
 static void test_filling(void **state)
 {
@@ -106,7 +106,7 @@ static void test_filling_in_another(void **state)
                1 / (1 / 50.0 + 1.2 / 8 * area), 1e-9);
 }
 
-// A drogue that opens in the place of the main is told.
+// A drogue that opens in the place of the main is reported.
 static void test_lesser(void **state)
 {
     (void)state;

@@ -278,7 +278,7 @@ static void rests_in_corners(void **state)
     }
 }
 
-// Between opposite lips without play one is touched where the other is let go: that is one event.
+// Between opposite lips without play one is touched where the other is released: that is one event.
 static void touches_without_play(void **state)
 {
     (void)state;
@@ -401,8 +401,8 @@ static rigid_pose beside(const rigid_pose *pose, double by, bool rolls, uint64_t
     return (rigid_pose){v3_add(pose->r, v3_make(0, move.y, move.z)), m3_mul(rv_exp(turn), pose->A)};
 }
 
-// Whether a rigid rocket let go from its centred place, or close to it, comes to rest not far off,
-// and again from beside that: on top of a hill it does not.
+// Whether a rigid rocket released from its centred place, or close to it, comes to rest not far
+// off, and again from beside that: on top of a hill it does not.
 static bool comes_to_rest(const ld_model *model, v3 gravity, bool rolls, uint64_t *seed)
 {
     for (int k = 0; k < 8; k++) {
@@ -438,7 +438,7 @@ static double would_sink(const launch_state *launch, const double *y, v3 gravity
     return rest.found ? v3_dot(way, gravity) / v3_norm(gravity) : INFINITY;
 }
 
-// Symmetric to the plane of the weight it may stand at the top of a hill, where nothing pulls it;
+// Symmetric to the plane of the weight it is allowed at the top of a hill, where nothing pulls it;
 // upright of any hill, else of one not far from where it would come to rest.
 static bool may_stand_on_top(const ld_model *model, double sinks)
 {

@@ -169,7 +169,7 @@ static fine_loads loads_at(const launch *self, place at)
 
 // ---- the tip ----
 
-// Of the tip: its place, its slope, their rates, each in both planes.
+// Of the tip: its position, its slope, their rates, each in both planes.
 enum { PLACE, SLOPE, PLACE_RATE, SLOPE_RATE, OF_TIP };
 
 // Between program and fine tube over the launch, against the motion's departure from the start [%]:

@@ -41,8 +41,8 @@ static part *add(part_list *list, int column, double factor)
     return added;
 }
 
-// Notes that the slopes of a surface (NULL: the axial coefficients) end at a Mach number; key: the
-// table's, NULL: none.
+// Records that the slopes of a surface (NULL: the axial coefficients) end at a Mach number; key:
+// the table's, NULL: none.
 static void take_end(air_surfaces *air, double last, const char *name, const char *key)
 {
     if (last >= air->last_mach)

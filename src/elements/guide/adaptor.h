@@ -158,7 +158,7 @@ LD_INLINE void adaptor_add(const int lanes, const adaptor_set *self, const tube_
     apply_at_section(lanes, guide, adaptor.foot, W, v3_neg(force), &now->on_tube);
 }
 
-// All that have not passed the tip; of those that are held ideal.h tells.
+// All that have not passed the tip; of those that are held ideal.h reports.
 LD_INLINE void adaptors_add(const int lanes, const adaptor_set *self, const tube_system *guide,
                             launching_instant *now)
 {

@@ -98,8 +98,9 @@ LD_INLINE double plane_product(double bb, double bb1, double b1b, double b1b1, d
     return bb * f_p * f_q + bb1 * f_p * mu_q + b1b * mu_p * f_q + b1b1 * mu_p * mu_q;
 }
 
-LD_OUTLINE double modal_product_apart(const section_shapes *shapes, const constraint_direction *p,
-                                      const constraint_direction *q)
+LD_OUTLINE double modal_product_two_planes(const section_shapes *shapes,
+                                           const constraint_direction *p,
+                                           const constraint_direction *q)
 {
     const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[PLANE_Z];
     return plane_product(y->bb, y->bb1, y->bb1, y->b1b1, p->force.y, p->mu.z, q->force.y, q->mu.z) +
@@ -108,8 +109,9 @@ LD_OUTLINE double modal_product_apart(const section_shapes *shapes, const constr
            shapes->tt * p->mu.x * q->mu.x;
 }
 
-LD_OUTLINE double modal_cross_product_apart(const shape_products *of, const constraint_direction *p,
-                                            const constraint_direction *q)
+LD_OUTLINE double modal_cross_product_two_planes(const shape_products *of,
+                                                 const constraint_direction *p,
+                                                 const constraint_direction *q)
 {
     const int z = PLANE_Z;
     return plane_product(of->bb[0], of->bb1[0], of->b1b[0], of->b1b1[0], p->force.y, p->mu.z,
@@ -125,7 +127,7 @@ LD_INLINE double modal_product(const section_shapes *of, const constraint_direct
 {
     const plane_shapes *shapes = &of->plane[PLANE_Y];
     if (__builtin_expect(of->z == PLANE_Z, 0))
-        return modal_product_apart(of, p, q);
+        return modal_product_two_planes(of, p, q);
     return shapes->bb * (p->force.y * q->force.y + p->force.z * q->force.z) +
            shapes->b1b1 * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
            shapes->bb1 * (p->force.y * q->mu.z + p->mu.z * q->force.y - p->force.z * q->mu.y -
@@ -134,11 +136,11 @@ LD_INLINE double modal_product(const section_shapes *of, const constraint_direct
 }
 
 // The same for forces at two sections.
-LD_INLINE double modal_cross_product(const shape_products *shapes, bool apart,
+LD_INLINE double modal_cross_product(const shape_products *shapes, bool planes_differ,
                                      const constraint_direction *p, const constraint_direction *q)
 {
-    if (__builtin_expect(apart, 0))
-        return modal_cross_product_apart(shapes, p, q);
+    if (__builtin_expect(planes_differ, 0))
+        return modal_cross_product_two_planes(shapes, p, q);
     return shapes->bb[0] * (p->force.y * q->force.y + p->force.z * q->force.z) +
            shapes->b1b1[0] * (p->mu.z * q->mu.z + p->mu.y * q->mu.y) +
            shapes->bb1[0] * (p->force.y * q->mu.z - p->force.z * q->mu.y) +
@@ -201,11 +203,12 @@ LD_INLINE double direction_product(const tube_state *tube, const constraint_set 
                                    const constraint_products *D, const constraint_direction *p,
                                    const constraint_direction *q)
 {
-    bool apart = tube->modal.apart;
-    double modal = p->section == q->section ? modal_product(&set->section[p->section].shapes, p, q)
-                   : p->section < q->section
-                       ? modal_cross_product(&D->cross[p->section][q->section], apart, p, q)
-                       : modal_cross_product(&D->cross[q->section][p->section], apart, q, p);
+    bool planes_differ = tube->modal.planes_differ;
+    double modal =
+        p->section == q->section ? modal_product(&set->section[p->section].shapes, p, q)
+        : p->section < q->section
+            ? modal_cross_product(&D->cross[p->section][q->section], planes_differ, p, q)
+            : modal_cross_product(&D->cross[q->section][p->section], planes_differ, q, p);
     return v3_dot(p->G_f, q->r_a) + v3_dot(p->G_m, q->r_alpha) +
            tube_product(tube, p->rigid, q->rigid) + modal;
 }

@@ -17,7 +17,7 @@ static int functions_of(const flexible_tube *tube)
     return 2 + bending_of(tube) + tube->na;
 }
 
-// The f_k at a place of an element.
+// The f_k at a position of an element.
 static void find_functions(const flexible_tube *tube, const tube_element *element, double x,
                            double *f)
 {

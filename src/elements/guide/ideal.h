@@ -44,7 +44,7 @@ LD_INLINE int foot_add(const int lanes, const tube_system *guide, const launchin
     return constraint_section_add(lanes, guide, tube, set);
 }
 
-// The two directions of adaptor i; what it tells but for the force, which is not known yet.
+// The two directions of adaptor i; what it reports but for the force, which is not known yet.
 LD_INLINE void adaptor_constrain(const int lanes, const adaptor_set *self, const tube_system *guide,
                                  int i, const launching_instant *now, adaptor_state *adaptor,
                                  constraint_set *set)
@@ -93,8 +93,8 @@ LD_INLINE void ideal_report(const adaptor_set *self, const constraint_set *set,
         }
 }
 
-// Puts the rocket where the adaptors that are held have no offset from the axis: O1 by its place in
-// the section, the other one by the rocket's attitude. Other coordinates stay.
+// Puts the rocket where the adaptors that are held have no offset from the axis: O1 by its position
+// in the section, the other one by the rocket's attitude. Other coordinates stay.
 LD_INLINE void ideal_place(const adaptor_set *self, const tube_system *guide,
                            const launching_layout *layout, const launching_phase *phase,
                            const tube_state *tube, double *state)

@@ -1,4 +1,5 @@
-// The lock: holds the rocket at its place in the tube until it is let go (model.md, section 5).
+// The lock: holds the rocket at its position in the tube until it is released (model.md, section
+// 5).
 //
 // Held is e_x . v_rel = 0 at a point L of the rocket, by a force along e_x of the section at s (the
 // foot of O1), moved rigidly to L; where the lock holds roll also w_SB . e_x = 0, by a moment about
@@ -41,7 +42,7 @@ LD_INLINE void lock_constrain(const lock_system *self, const launching_instant *
         roll_constrain(now, set);
 }
 
-// `carried`: slot or guide hold the roll by themselves.
+// `carried`: slot or guide hold the roll on their own.
 LD_INLINE void lock_build(const ld_lock *lock, bool carried, lock_system *self)
 {
     self->at = v3_make(lock->x, lock->radius * cos(lock->angle), lock->radius * sin(lock->angle));

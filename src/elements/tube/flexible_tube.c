@@ -133,7 +133,7 @@ static void bending_values(const flexible_tube *tube, int plane, const tube_elem
                      xi * (element->b[plane][2][l] + xi * element->b[plane][3][l]));
 }
 
-// What a mass at a place of an element has of AB = int a b^T dm.
+// What a mass at a position of an element has of AB = int a b^T dm.
 static void add_axial(flexible_tube *tube, const tube_element *element, double x, double dm)
 {
     double xi = x - element->x0, b[LD_NB];

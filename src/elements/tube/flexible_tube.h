@@ -7,7 +7,7 @@
 //   phi_x = tau . q_t,  phi_y = -b_z' . q_z,  phi_z = b_y' . q_y
 // Tangent form: b(0) = b'(0) = 0, tau(0) = 0, a(0) = 0; int b b^T dm = E in each plane, int rho I_p
 // tau tau^T dx = E, int a a^T dm = E; stiffness K = diag(omega^2), damping D = diag(2 zeta omega).
-// Where b_y = b_z (most tubes) the planes share their shapes; else G = int b_y b_z^T dm tells how
+// Where b_y = b_z (most tubes) the planes share their shapes; else G = int b_y b_z^T dm says how
 // they overlap. Lanes: counts padded to multiples of 4 with zeros (nbp, ntp, nap), so that loops
 // have fixed length.
 #ifndef LD_ELEMENTS_FLEXIBLE_TUBE_H

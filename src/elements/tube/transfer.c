@@ -33,7 +33,8 @@ void rigid_body_transfer(transfer_matrix *U, const rigid_body *body, v3 r, v3 w,
 }
 
 // D [6 x 6] := X^T Y for the columns x_i, y_j [n] of two half-solved mappings.
-static void gram(int n, double X[6][TRANSFER_SPEEDS], double Y[6][TRANSFER_SPEEDS], double D[6][6])
+static void fill_gram(int n, double X[6][TRANSFER_SPEEDS], double Y[6][TRANSFER_SPEEDS],
+                      double D[6][6])
 {
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++) {
@@ -102,10 +103,10 @@ ld_status flexible_body_transfer(transfer_matrix *U, const flexible_body *body, 
 
     // mobilities D_XY = L_X Q L_Y^T
     double D_II[6][6], D_IO[6][6], D_OI[6][6], D_OO[6][6], inverse[6][6], row[6], column[6];
-    gram(n, X_I, X_I, D_II);
-    gram(n, X_I, X_O, D_IO);
-    gram(n, X_O, X_I, D_OI);
-    gram(n, X_O, X_O, D_OO);
+    fill_gram(n, X_I, X_I, D_II);
+    fill_gram(n, X_I, X_O, D_IO);
+    fill_gram(n, X_O, X_I, D_OI);
+    fill_gram(n, X_O, X_O, D_OO);
     for (int i = 0; i < 6; i++) {
         row[i] = sqrt(D_II[i][i]);
         column[i] = sqrt(D_OO[i][i]);

@@ -36,7 +36,7 @@ typedef struct integrals {
 } integrals;
 
 // int b u dm of a plane's shapes with the deflection that q makes in the other plane.
-static void across(const flexible_tube *tube, int plane, const double *q, double *to)
+static void cross_shapes(const flexible_tube *tube, int plane, const double *q, double *to)
 {
     for (int i = 0; i < tube->nb; i++)
         to[i] = tube->overlap ? dot(tube->nb, tube->overlap->G[plane][i], q) : q[i];
@@ -56,8 +56,8 @@ static void integrate(const flexible_tube *tube, const double *q, const double *
         }
     memcpy(of_y[1], q_y, (size_t)k.nb * sizeof *q_y);
     memcpy(of_z[2], q_z, (size_t)k.nb * sizeof *q_z);
-    across(tube, PLANE_Y, q_z, of_y[2]);
-    across(tube, PLANE_Z, q_y, of_z[1]);
+    cross_shapes(tube, PLANE_Y, q_z, of_y[2]);
+    cross_shapes(tube, PLANE_Z, q_y, of_z[1]);
     for (int i = 0; i < k.na; i++) {
         value->stretch[0][i] = tube->ax[i] + q_a[i];
         value->stretch[1][i] = dot(k.nb, tube->AB[PLANE_Y][i], q_y);
@@ -151,7 +151,7 @@ static void assemble_plane(const flexible_tube *tube, const integrals *value, in
     for (int i = 0; i < k.na; i++)
         for (int j = 0; j < k.nb; j++)
             u_x[j] += tube->AB[plane][i][j] * q_dot[k.a + i];
-    across(tube, plane, q_dot + other, u_other);
+    cross_shapes(tube, plane, q_dot + other, u_other);
     const double(*bend)[LD_NB] = value->bend[plane];
     const double *moment[3] = {bend[0], bend[1], bend[2]};
     const double *along[3] = {u_x, plane == PLANE_Y ? q_dot + k.y : u_other,

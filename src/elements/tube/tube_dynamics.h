@@ -40,7 +40,8 @@ typedef struct tube_section_state {
     double L[6 * LD_TUBE_SPEEDS]; // 6 x n, row by row: [a; alpha] = L eta_dot + gamma
 } tube_section_state;
 
-// Section at station x (formulation.md, section 1); beyond the ends it goes on straight and rigid.
+// Section at station x (formulation.md, section 1); beyond the ends it continues straight and
+// rigid.
 void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, const double *q_dot,
                   tube_section_state *section);
 

@@ -13,8 +13,8 @@ static const double weight_of[][2] = {
     [PLANE_Y] = {1, 0}, [PLANE_Z] = {0, 1}, [PLANES_ALIKE] = {0.5, 0.5}};
 
 // The line is held where the directions of all of its planes are.
-static void hold(line_ties *ties, const ld_support *support, const double weight[2], ld_clamp y,
-                 ld_clamp z, bool slope)
+static void tie_support(line_ties *ties, const ld_support *support, const double weight[2],
+                        ld_clamp y, ld_clamp z, bool slope)
 {
     if ((weight[PLANE_Y] > 0 && !support_clamps(support, y)) ||
         (weight[PLANE_Z] > 0 && !support_clamps(support, z)))
@@ -33,15 +33,15 @@ static void tie_bending(const ld_support *support, const double weight[2], line_
 {
     ties->value[ties->springs] = spring_of(support, weight, LD_CLAMP_Y, LD_CLAMP_Z);
     ties->slope[ties->springs] = spring_of(support, weight, LD_CLAMP_PITCH, LD_CLAMP_YAW);
-    hold(ties, support, weight, LD_CLAMP_Y, LD_CLAMP_Z, false);
-    hold(ties, support, weight, LD_CLAMP_PITCH, LD_CLAMP_YAW, true);
+    tie_support(ties, support, weight, LD_CLAMP_Y, LD_CLAMP_Z, false);
+    tie_support(ties, support, weight, LD_CLAMP_PITCH, LD_CLAMP_YAW, true);
 }
 
 static void tie_bar(const ld_support *support, const double weight[2], ld_clamp only,
                     line_ties *ties)
 {
     ties->value[ties->springs] = support_spring(support, only);
-    hold(ties, support, weight, only, only, false);
+    tie_support(ties, support, weight, only, only, false);
 }
 
 // Tail and supports as a line in these planes feels them.
@@ -406,8 +406,8 @@ static void write_shapes(const tube_line *line, const double *own, const double 
     }
 }
 
-static ld_status choose(line_shapes *shapes, const tube_line *line, const ld_tubes *model,
-                        elastic_modes *modes, ld_error *error)
+static ld_status choose_modes(line_shapes *shapes, const tube_line *line, const ld_tubes *model,
+                              elastic_modes *modes, ld_error *error)
 {
     int m = shapes->count;
     tied_line tied;
@@ -437,7 +437,7 @@ ld_status line_shapes_choose(line_shapes *shapes, const tube_line *line, const l
     elastic_modes modes = {.part = part, .omega = omega};
     shapes->nodal = calloc(m * n, sizeof(double));
     ld_status status = part && shapes->nodal
-                           ? choose(shapes, line, model, &modes, error)
+                           ? choose_modes(shapes, line, model, &modes, error)
                            : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     free(part);
     return status;

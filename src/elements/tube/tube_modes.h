@@ -33,8 +33,8 @@ static inline double section_share(const ld_section *section, int plane)
 void tied_line_make(tied_line *self, const tube_line *line, const ld_tubes *model);
 
 // The `wanted` lowest natural frequencies and modes of the free line with its ties, order N = n +
-// width: rows of `vector` [wanted][N] (rigid shapes, amplitudes of the elements) from the highest
-// to the lowest, omega^2 [1/s2] in `lambda` [N] in the same order.
+// width: rows of `vector` [requested][N] (rigid shapes, amplitudes of the elements) from the
+// highest to the lowest, omega^2 [1/s2] in `lambda` [N] in the same order.
 ld_status tied_line_solve(const tied_line *self, int wanted, double *vector, double *lambda,
                           ld_error *error);
 

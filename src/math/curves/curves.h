@@ -36,7 +36,8 @@ static inline size_t curves_interval(const curves *self, double x, size_t hint)
     return i;
 }
 
-// The first `count` values at x by the polynomials of that interval; outside the table they go on.
+// The first `count` values at x by the polynomials of that interval; outside the table they
+// continue.
 static inline void curves_first_values(const curves *self, size_t interval, double x, int count,
                                        double *values)
 {

@@ -17,7 +17,7 @@ ld_status spline_build(spline *self, size_t count, const double *x, const double
                        ld_error *error);
 void spline_free(spline *self);
 
-// Value and slope at x; outside the table the end pieces go on.
+// Value and slope at x; outside the table the end pieces continue.
 double spline_value(const spline *self, double x, double *slope);
 // Second derivative at x.
 double spline_curvature(const spline *self, double x);

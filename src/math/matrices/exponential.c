@@ -577,7 +577,7 @@ static int pieces_of(const exponential *self)
 }
 
 // w, of slope g, from x of the step on over a piece of it, `s`; the remainder is a polynomial.
-static void go_on(exponential *self, double x, double s, const double *g, double *w)
+static void advance_krylov(exponential *self, double x, double s, const double *g, double *w)
 {
     const exponential_course *course = &self->course;
     double *d = self->vector[2], *bend = self->vector[3];
@@ -608,7 +608,7 @@ static void find_course(exponential *self)
         if (k == count)
             break;
         memcpy(self->way[k + 1], self->way[k], size);
-        go_on(self, x, 1.0 / count, self->way_slope[k], self->way[k + 1]);
+        advance_krylov(self, x, 1.0 / count, self->way_slope[k], self->way[k + 1]);
     }
     self->found = true;
 }

@@ -4,7 +4,7 @@
 // any size is exact. It consists of blocks on the diagonal. States in none of them are integrals of
 // the others, on which nothing depends: Simpson's rule.
 //
-// Steps have the sizes longest / 2^rung, since each wants functions phi of its own:
+// Steps have the sizes longest / 2^rung, since each requires functions phi of its own:
 // phi_k(z) = integral over x from 0 to 1 of exp((1 - x) z) x^(k - 1) / (k - 1)!.
 #ifndef LD_MATH_EXPONENTIAL_H
 #define LD_MATH_EXPONENTIAL_H

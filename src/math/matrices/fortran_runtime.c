@@ -1,5 +1,5 @@
 // What LAPACK asks of the Fortran run-time library, so that the programs do without that library:
-// it takes memory and reads the environment before main, and may end a program by itself.
+// it takes memory and reads the environment before main, and may end a program on its own.
 #include <assert.h>
 #include <stddef.h>
 #include <string.h>

@@ -21,8 +21,8 @@ typedef struct ld_sines {
     ld_sine term[LD_MAX_SINES];
 } ld_sines;
 
-/// What carries the tube: a kind, its word, its number in digests. External: told where it is by
-/// whoever runs the launch, step by step. FMU: one of other people's, stepped beside the launch.
+/// What carries the tube: a kind, its word, its number in digests. External: driven by whoever runs
+/// the launch, step by step. FMU: imported, stepped beside the launch.
 #define LD_BASE_KINDS(KIND)                                                                        \
     KIND(LD_BASE_FIXED, fixed, 0)                                                                  \
     KIND(LD_BASE_PRESCRIBED, prescribed, 1)                                                        \
@@ -39,9 +39,9 @@ typedef enum ld_base_kind {
 /// What a base without wheels is drawn as; nothing of its mechanics.
 typedef enum ld_looks { LD_LOOKS_PLAIN, LD_LOOKS_SHIP, LD_LOOKS_AIRCRAFT } ld_looks;
 
-/// How an external base goes on between the instants at which it is told.
+/// How an external base continues between the instants at which it is given.
 typedef enum ld_extrapolation {
-    LD_EXTRAPOLATION_ACCELERATION, ///< with the acceleration that its last two velocities tell
+    LD_EXTRAPOLATION_ACCELERATION, ///< with the acceleration that its last two velocities report
     LD_EXTRAPOLATION_VELOCITY,     ///< with its last velocity
 } ld_extrapolation;
 
@@ -58,8 +58,8 @@ typedef struct ld_base {
     double motion_origin; ///< [s] whole seconds that are left out of its times; 0 but of late ones
     double motion_start;  ///< [s] of the table's clock: 0 of the run's
     ld_sea sea;           ///< added to sines and velocity (prescribed)
-    double at[3]; ///< [m] T's origin in the frame that moves so, or that an FMU tells (prescribed,
-                  ///< fmu)
+    double at[3];         ///< [m] T's origin in the frame that moves so, or that an FMU reports
+                          ///< (prescribed, fmu)
     ld_vehicle vehicle;
     ld_mechanism mechanism;         ///< (multibody)
     ld_extrapolation extrapolation; ///< (external)

@@ -23,10 +23,10 @@ typedef struct ld_fmu_parameter {
 /// How an FMU takes inputs between the instants at which they are set.
 typedef enum ld_fmu_inputs {
     LD_FMU_HELD,         ///< it holds them
-    LD_FMU_EXTRAPOLATED, ///< it goes on with them as the last ones tell
+    LD_FMU_EXTRAPOLATED, ///< it continues with them as the last ones report
 } ld_fmu_inputs;
 
-/// In which axes an FMU tells its angular velocity.
+/// In which axes an FMU reports its angular velocity.
 typedef enum ld_fmu_axes { LD_FMU_AXES_OF_I, LD_FMU_AXES_OF_BODY } ld_fmu_axes;
 
 enum { LD_MAX_FMU_PARAMETERS = 64 };

@@ -213,7 +213,7 @@ typedef struct ld_mechanism {
     ld_joint_names turns, slides; ///< joints about and along one axis; model_complete() lists them
 } ld_mechanism;
 
-/// Whom a point belongs to, where it is no body.
+/// Whom a point belongs to, where it is not a body.
 enum { LD_ON_GROUND = -1, LD_ON_CARRIER = -2, LD_ON_NOTHING = -3 };
 
 /// Number of the body of that name, rigid ones first, then beams, or one of the above.

@@ -19,7 +19,7 @@ typedef enum ld_hold { LD_HOLD_BY_GUIDE, LD_HOLD_YES, LD_HOLD_NO } ld_hold;
 typedef struct ld_lock {
     bool present;         ///< false: the rocket is free from the start
     double release_force; ///< [N]
-    double hold_down;     ///< [s] from ignition, before which it lets go under no force; 0: never
+    double hold_down;     ///< [s] from ignition, before which it releases under no force; 0: never
     double x, radius,
         angle;          ///< [m], [m], [rad] of the point held, in B: (x, radius cos, radius sin)
     ld_hold holds_roll; ///< by the guide: yes without slot and flat surfaces

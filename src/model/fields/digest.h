@@ -1,4 +1,4 @@
-// A number that tells models apart.
+// A number that distinguishes models.
 #ifndef LD_MODEL_DIGEST_H
 #define LD_MODEL_DIGEST_H
 
@@ -7,7 +7,7 @@
 
 #include "launchdyn/model.h"
 
-// FNV-1a of bytes, going on from `digest`; the first begins with DIGEST_BEGIN.
+// FNV-1a of bytes, continuing from `digest`; the first begins with DIGEST_BEGIN.
 #define DIGEST_BEGIN UINT64_C(14695981039346656037)
 uint64_t digest_bytes(uint64_t digest, const void *bytes, size_t size);
 

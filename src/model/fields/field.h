@@ -20,7 +20,7 @@ typedef enum field_kind {
     FIELD_WORD,       // char[LD_MAX_NAME], a name
     FIELD_QUANTITY,   // char[LD_MAX_QUANTITY], names joined by points
     FIELD_TEXT,       // char *, owned by the model
-    FIELD_FILE,       // char *, owned by the model, the full path of a file that is no text; at
+    FIELD_FILE,       // char *, owned by the model, the full path of a file that is not text; at
                       // `other` a text, its digest, of a row before
     FIELD_CHOICE,     // enum: one of `words`
     FIELD_BLOCK,      // keys of `block`
@@ -48,9 +48,9 @@ typedef struct field_word {
     int value;
 } field_word;
 
-enum { FIELD_WORD_REFUSED = -2 }; // what was chosen is no word of the choice
+enum { FIELD_WORD_REFUSED = -2 }; // what was chosen is not a word of the choice
 
-// What may stand in place of a table's rows.
+// What is allowed in place of a table's rows.
 enum table_source {
     TABLE_CONSTANT = 1,  // one value, of the last column
     TABLE_CSV = 2,       // a CSV file whose header names columns and units
@@ -97,7 +97,7 @@ typedef struct field_row {
     field_range range;
     const field_word *words;
     const struct field_block *block;
-    const struct field_row *alternative; // list: the block that may stand in its place, whose
+    const struct field_row *alternative; // list: the block that is allowed in its place, whose
                                          // switch says whether it does; or NULL
     const table_format *table;
     unsigned forms; // bit f: the key goes with form f of its block; 0: with every form

@@ -42,7 +42,7 @@ static size_t write_path(const key_path *path, char *text, size_t size)
     return at + (size_t)more < size ? at + (size_t)more : size - 1;
 }
 
-static void refuse(model_checker *checker, const key_path *path, const char *text)
+static void report_refused(model_checker *checker, const key_path *path, const char *text)
 {
     char written[160] = "";
     write_path(path, written, sizeof written);
@@ -60,7 +60,7 @@ static void check_number(model_checker *checker, const key_path *path, const fie
     field_range_text(f, range, sizeof range);
     snprintf(text, sizeof text, "%g%s%s is not allowed%s%s", value, f->unit[0] ? " " : "", f->unit,
              range[0] ? "; expected " : "", range);
-    refuse(checker, path, text);
+    report_refused(checker, path, text);
 }
 
 static void check_choice(model_checker *checker, const key_path *path, const field_row *f,
@@ -72,7 +72,7 @@ static void check_choice(model_checker *checker, const key_path *path, const fie
     memcpy(&value, field_at_const(base, f), sizeof value);
     const field_word *word = field_word_of(f->words, value);
     if (!word)
-        refuse(checker, path, "not a value of this choice");
+        report_refused(checker, path, "not a value of this choice");
     else if (!word->name[0])
         check_number(checker, path, f, *(const double *)((const char *)base + f->other));
 }
@@ -88,7 +88,7 @@ static void check_integer(model_checker *checker, const key_path *path, const fi
     if (field_in_range(f->range, value))
         return;
     snprintf(text, sizeof text, "%d is not from %g to %.9g", value, f->range.low, f->range.high);
-    refuse(checker, path, text);
+    report_refused(checker, path, text);
 }
 
 static void check_integers(model_checker *checker, const key_path *path, const field_row *f,
@@ -98,7 +98,7 @@ static void check_integers(model_checker *checker, const key_path *path, const f
     char text[96];
     if (count < f->least || count > f->count) {
         snprintf(text, sizeof text, "%d numbers, not %d to %d", count, f->least, f->count);
-        refuse(checker, path, text);
+        report_refused(checker, path, text);
         return;
     }
     for (int i = 0; i < count; i++) {
@@ -107,7 +107,7 @@ static void check_integers(model_checker *checker, const key_path *path, const f
             continue;
         snprintf(text, sizeof text, "%d is not from %g to %.9g", value, f->range.low,
                  f->range.high);
-        refuse(checker, path, text);
+        report_refused(checker, path, text);
     }
 }
 
@@ -115,12 +115,12 @@ static void check_table(model_checker *checker, const key_path *path, const fiel
                         const ld_table *table)
 {
     if (f->required && table->rows == 0)
-        refuse(checker, path, "missing");
+        report_refused(checker, path, "missing");
     if (table->rows == 0)
         return;
     const table_format *format = field_table_format(f->table, table->columns);
     if (!format) {
-        refuse(checker, path, "does not have the required columns");
+        report_refused(checker, path, "does not have the required columns");
         return;
     }
     for (size_t i = 0; i < table->rows; i++)
@@ -138,7 +138,7 @@ static void check_list(model_checker *checker, const key_path *path, const field
     char text[96];
     if (count < f->least || count > f->count) {
         snprintf(text, sizeof text, "%d entries, not %d to %d", count, f->least, f->count);
-        refuse(checker, path, text);
+        report_refused(checker, path, text);
         return;
     }
     for (int i = 0; i < count; i++) {
@@ -236,7 +236,7 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
         for (unsigned left = *(const unsigned *)field_at_const(base, f), bit = 0; left;
              left >>= 1, bit++)
             if (left & 1u && !field_word_of(f->words, (int)bit)) {
-                refuse(checker, path, "not a value of this choice");
+                report_refused(checker, path, "not a value of this choice");
                 break;
             }
         break;
@@ -245,7 +245,7 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
         break;
     case FIELD_BLOCK:
         if (f->words && !field_word_of(f->words, field_switch(base, f)))
-            refuse(checker, path, "not a value of this choice");
+            report_refused(checker, path, "not a value of this choice");
         else if (!f->words || !field_word_of(f->words, field_switch(base, f))->name[0])
             check_block(checker, path, f->block, field_at_const(base, f));
         break;
@@ -260,11 +260,11 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
         break;
     case FIELD_WORD:
         if (!memchr(field_at_const(base, f), '\0', LD_MAX_NAME))
-            refuse(checker, path, "not terminated by a zero");
+            report_refused(checker, path, "not terminated by a zero");
         break;
     case FIELD_QUANTITY:
         if (!memchr(field_at_const(base, f), '\0', LD_MAX_QUANTITY))
-            refuse(checker, path, "not terminated by a zero");
+            report_refused(checker, path, "not terminated by a zero");
         break;
     case FIELD_FACTORS:
     case FIELD_CORRELATED:
@@ -285,7 +285,7 @@ static void check_block(model_checker *checker, const key_path *path, const fiel
 {
     int form = field_form(block, base);
     if (block->form && (form < 0 || !field_word_of(block->form, form))) {
-        refuse(checker, path, "not a value of this choice");
+        report_refused(checker, path, "not a value of this choice");
         return;
     }
     for (const field_row *f = block->fields; f->name; f++)

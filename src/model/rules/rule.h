@@ -13,7 +13,7 @@ typedef struct rule_set {
 } rule_set;
 
 // Reports a broken rule; `index` (from 1; 0: none) replaces the # in `path`.
-void broken(const rule_set *rules, const char *path, int index, const char *format, ...)
+void report_broken(const rule_set *rules, const char *path, int index, const char *format, ...)
     LD_PRINTF(4, 5);
 
 // The first column of a table must rise; with `jumps`, a value may stand twice.

@@ -15,7 +15,7 @@ static void station_rule(const rule_set *rules, const char *path, int index, dou
 {
     double length = rules->model->tubes.length;
     if (at > length)
-        broken(rules, path, index, "%g m lies beyond the tube's tip at %g m", at, length);
+        report_broken(rules, path, index, "%g m lies beyond the tube's tip at %g m", at, length);
 }
 
 // Stations at which loads are asked for, each once.
@@ -26,12 +26,12 @@ static void load_rules(const rule_set *rules)
         double at = tubes->station[i].at;
         station_rule(rules, "tubes.loads.#.at", i + 1, at);
         if (!isnan(tubes->station[i].outer_fibre[0]) && isnan(tubes->material.youngs_modulus))
-            broken(rules, "tubes.loads.#.outer_fibre", i + 1,
-                   "requires tubes.material.youngs_modulus, for the stress");
+            report_broken(rules, "tubes.loads.#.outer_fibre", i + 1,
+                          "requires tubes.material.youngs_modulus, for the stress");
         for (int k = 0; k < i; k++)
             if (tubes->station[k].at == at)
-                broken(rules, "tubes.loads.#.at", i + 1, "%g m is the station of entry %d already",
-                       at, k + 1);
+                report_broken(rules, "tubes.loads.#.at", i + 1,
+                              "%g m is the station of entry %d already", at, k + 1);
     }
 }
 
@@ -42,12 +42,14 @@ static void material_rules(const rule_set *rules, const ld_section *section, int
     const char *path = "tubes.material";
     const char *by = given_by[section->form];
     if (isnan(material->youngs_modulus))
-        broken(rules, path, 0, "youngs_modulus is missing; section %d is given by %s", index, by);
+        report_broken(rules, path, 0, "youngs_modulus is missing; section %d is given by %s", index,
+                      by);
     if (isnan(material->poisson_ratio) && isnan(material->shear_modulus))
-        broken(rules, path, 0,
-               "poisson_ratio or shear_modulus is missing; section %d is given by %s", index, by);
+        report_broken(rules, path, 0,
+                      "poisson_ratio or shear_modulus is missing; section %d is given by %s", index,
+                      by);
     if (section->form == LD_SECTION_ANNULUS && isnan(material->density))
-        broken(rules, path, 0, "density is missing; section %d is given by %s", index, by);
+        report_broken(rules, path, 0, "density is missing; section %d is given by %s", index, by);
 }
 
 static void section_rules(const rule_set *rules)
@@ -55,24 +57,25 @@ static void section_rules(const rule_set *rules)
     const ld_tubes *tubes = &rules->model->tubes;
     const ld_material *material = &tubes->material;
     if (!isnan(material->poisson_ratio) && !isnan(material->shear_modulus))
-        broken(rules, "tubes.material.shear_modulus", 0,
-               "given together with poisson_ratio; give one of them");
+        report_broken(rules, "tubes.material.shear_modulus", 0,
+                      "given together with poisson_ratio; give one of them");
     if (tubes->section_count > 0 && tubes->section[0].from > 0)
-        broken(rules, "tubes.sections.1.from", 0, "the first section must begin at 0 m, not %g m",
-               tubes->section[0].from);
+        report_broken(rules, "tubes.sections.1.from", 0,
+                      "the first section must begin at 0 m, not %g m", tubes->section[0].from);
     for (int i = 0; i < tubes->section_count; i++) {
         const ld_section *section = &tubes->section[i];
         if (i > 0 && section->from <= section[-1].from)
-            broken(rules, "tubes.sections.#.from", i + 1,
-                   "%g m does not come after the section before, which begins at %g m",
-                   section->from, section[-1].from);
+            report_broken(rules, "tubes.sections.#.from", i + 1,
+                          "%g m does not come after the section before, which begins at %g m",
+                          section->from, section[-1].from);
         if (section->from >= tubes->length)
-            broken(rules, "tubes.sections.#.from", i + 1,
-                   "%g m is not before the tube's tip at %g m", section->from, tubes->length);
+            report_broken(rules, "tubes.sections.#.from", i + 1,
+                          "%g m is not before the tube's tip at %g m", section->from,
+                          tubes->length);
         if (section->form == LD_SECTION_ANNULUS && section->outer_radius <= section->bore_radius)
-            broken(rules, "tubes.sections.#.outer_radius", i + 1,
-                   "%g m must be greater than the inner radius, %g m", section->outer_radius,
-                   section->bore_radius);
+            report_broken(rules, "tubes.sections.#.outer_radius", i + 1,
+                          "%g m must be greater than the inner radius, %g m", section->outer_radius,
+                          section->bore_radius);
     }
     // the material is needed once, so say so once
     for (int i = 0; i < tubes->section_count; i++) {
@@ -96,8 +99,8 @@ static void derived_rules(const rule_set *rules)
         bool has_wall = s->form != LD_SECTION_ANNULUS || s->outer_radius > s->bore_radius;
         for (int k = 0; k < 6 && has_wall; k++)
             if (value[k] < 1e-100 || value[k] > 1e100) {
-                broken(rules, "tubes.sections.#", i + 1,
-                       "its stiffnesses or masses come out as %g, out of range", value[k]);
+                report_broken(rules, "tubes.sections.#", i + 1,
+                              "its stiffnesses or masses come out as %g, out of range", value[k]);
                 break;
             }
     }
@@ -111,20 +114,20 @@ static void firing_rule(const rule_set *rules, int i, int count)
     const char *path = order ? "firing.order.#" : "firing.#.tube";
     int tube = rules->model->firing[i].tube;
     if (tube > count)
-        broken(rules, path, i + 1, "%d; the layout has tubes 1 to %d", tube, count);
+        report_broken(rules, path, i + 1, "%d; the layout has tubes 1 to %d", tube, count);
     for (int k = 0; k < tubes->empty_count; k++)
         if (tubes->empty[k] == tube) {
-            broken(rules, path, i + 1, "%d has no rocket: tubes.empty lists it", tube);
+            report_broken(rules, path, i + 1, "%d has no rocket: tubes.empty lists it", tube);
             return;
         }
     const ld_firing *firing = rules->model->firing;
     if (i > 0 && firing[i].at <= firing[i - 1].at)
-        broken(rules, order ? "firing.interval" : "firing.#.at", i + 1,
-               "%g s does not come after the firing before, at %g s", firing[i].at,
-               firing[i - 1].at);
+        report_broken(rules, order ? "firing.interval" : "firing.#.at", i + 1,
+                      "%g s does not come after the firing before, at %g s", firing[i].at,
+                      firing[i - 1].at);
     for (int k = 0; k < i; k++)
         if (firing[k].tube == tube)
-            broken(rules, path, i + 1, "%d has fired already, as entry %d", tube, k + 1);
+            report_broken(rules, path, i + 1, "%d has fired already, as entry %d", tube, k + 1);
 }
 
 static void layout_rules(const rule_set *rules)
@@ -133,19 +136,20 @@ static void layout_rules(const rule_set *rules)
     const ld_layout *layout = &tubes->layout;
     int count = layout->rows * layout->columns;
     if (count > 1 && tubes->section_count > 0 && layout->pitch <= 2 * tubes->section[0].bore_radius)
-        broken(rules, "tubes.layout.pitch", 0,
-               "%g m: %d tubes with a bore of %g m in diameter would overlap", layout->pitch, count,
-               2 * tubes->section[0].bore_radius);
+        report_broken(rules, "tubes.layout.pitch", 0,
+                      "%g m: %d tubes with a bore of %g m in diameter would overlap", layout->pitch,
+                      count, 2 * tubes->section[0].bore_radius);
     if (count > LD_MAX_TUBES)
-        broken(rules, "tubes.layout", 0, "%d tubes; at most %d are allowed", count, LD_MAX_TUBES);
+        report_broken(rules, "tubes.layout", 0, "%d tubes; at most %d are allowed", count,
+                      LD_MAX_TUBES);
     for (int i = 0; i < tubes->empty_count; i++) {
         if (tubes->empty[i] > count)
-            broken(rules, "tubes.empty.#", i + 1, "%d; the layout has tubes 1 to %d",
-                   tubes->empty[i], count);
+            report_broken(rules, "tubes.empty.#", i + 1, "%d; the layout has tubes 1 to %d",
+                          tubes->empty[i], count);
         for (int k = 0; k < i; k++)
             if (tubes->empty[i] == tubes->empty[k])
-                broken(rules, "tubes.empty.#", i + 1, "%d is entry %d already", tubes->empty[i],
-                       k + 1);
+                report_broken(rules, "tubes.empty.#", i + 1, "%d is entry %d already",
+                              tubes->empty[i], k + 1);
     }
     for (int i = 0; i < rules->model->firing_count; i++)
         firing_rule(rules, i, count);
@@ -155,14 +159,14 @@ static void modes_rules(const rule_set *rules)
 {
     const ld_modes *modes = &rules->model->tubes.modes;
     if (modes->bending > modes->elements)
-        broken(rules, "tubes.modes.bending", 0, "%d modes need at least %d elements, not %d",
-               modes->bending, modes->bending, modes->elements);
+        report_broken(rules, "tubes.modes.bending", 0, "%d modes need at least %d elements, not %d",
+                      modes->bending, modes->bending, modes->elements);
     if (modes->torsion > modes->elements)
-        broken(rules, "tubes.modes.torsion", 0, "%d modes need at least %d elements, not %d",
-               modes->torsion, modes->torsion, modes->elements);
+        report_broken(rules, "tubes.modes.torsion", 0, "%d modes need at least %d elements, not %d",
+                      modes->torsion, modes->torsion, modes->elements);
     if (modes->axial > modes->elements)
-        broken(rules, "tubes.modes.axial", 0, "%d modes need at least %d elements, not %d",
-               modes->axial, modes->axial, modes->elements);
+        report_broken(rules, "tubes.modes.axial", 0, "%d modes need at least %d elements, not %d",
+                      modes->axial, modes->axial, modes->elements);
 }
 
 // Stiffness of a support in a direction; of one that it holds rigidly a large one.
@@ -194,19 +198,19 @@ static void clamped_rule(const rule_set *rules, int i)
 {
     const ld_support *support = &rules->model->tubes.support[i];
     if (isnan(support->stiffness[0]) && !support->clamped)
-        broken(rules, "tubes.supports.#.stiffness", i + 1,
-               "missing; expected three numbers and one unit of N/m, >= 0 N/m");
+        report_broken(rules, "tubes.supports.#.stiffness", i + 1,
+                      "missing; expected three numbers and one unit of N/m, >= 0 N/m");
     if (support->clamped && (model_has_vehicle(rules->model) || model_has_multibody(rules->model)))
-        broken(
+        report_broken(
             rules, "tubes.supports.#.clamped", i + 1,
             "requires a base whose motion is given; on a vehicle or on bodies use stiff springs");
     if (support->clamped && rules->model->run.formulation == LD_FORMULATION_OVERALL)
-        broken(rules, "tubes.supports.#.clamped", i + 1,
-               "requires run.formulation: reduced; the overall form has springs only");
+        report_broken(rules, "tubes.supports.#.clamped", i + 1,
+                      "requires run.formulation: reduced; the overall form has springs only");
     for (int k = 0; k < i && support->clamped; k++)
         if (support[k - i].clamped && support[k - i].at == support->at)
-            broken(rules, "tubes.supports.#.clamped", i + 1,
-                   "support %d is at the station %g m already", k + 1, support->at);
+            report_broken(rules, "tubes.supports.#.clamped", i + 1,
+                          "support %d is at the station %g m already", k + 1, support->at);
 }
 
 // Directions held rigidly must be fewer than what tube and modes can follow.
@@ -232,9 +236,9 @@ static void clamps_rules(const rule_set *rules)
             all += support_clamps(&tubes->support[i], (ld_clamp)k);
     }
     if (stations > LD_MAX_CLAMPED_STATIONS || all > LD_MAX_CLAMPED)
-        broken(rules, "tubes.supports", 0,
-               "%d clamped stations hold %d directions; at most %d and %d are allowed", stations,
-               all, LD_MAX_CLAMPED_STATIONS, LD_MAX_CLAMPED);
+        report_broken(rules, "tubes.supports", 0,
+                      "%d clamped stations hold %d directions; at most %d and %d are allowed",
+                      stations, all, LD_MAX_CLAMPED_STATIONS, LD_MAX_CLAMPED);
     for (int l = 0; l < 4; l++) {
         int held = 0;
         for (int i = 0; i < tubes->support_count; i++) {
@@ -243,10 +247,11 @@ static void clamps_rules(const rule_set *rules)
                 held += support_clamps(&tubes->support[i], line[l].second);
         }
         if (held > line[l].rigid + modes[l])
-            broken(rules, "tubes.supports", 0,
-                   "they clamp %d directions of %s, which a tube of %d modes there cannot follow: "
-                   "at most %d",
-                   held, line[l].what, modes[l], line[l].rigid + modes[l]);
+            report_broken(
+                rules, "tubes.supports", 0,
+                "they clamp %d directions of %s, which a tube of %d modes there cannot follow: "
+                "at most %d",
+                held, line[l].what, modes[l], line[l].rigid + modes[l]);
     }
 }
 
@@ -265,16 +270,17 @@ static void recoil_rules(const rule_set *rules)
         if (!support->recoil.present)
             continue;
         if (support_clamps(support, LD_CLAMP_X))
-            broken(rules, "tubes.supports.#.recoil", i + 1,
-                   "this support clamps x, along which the tube would recoil");
+            report_broken(rules, "tubes.supports.#.recoil", i + 1,
+                          "this support clamps x, along which the tube would recoil");
         else if (support_spring(support, LD_CLAMP_X) == 0)
-            broken(rules, "tubes.supports.#.stiffness", i + 1,
-                   "0 N/m along x, which the stops of its recoil require");
+            report_broken(rules, "tubes.supports.#.stiffness", i + 1,
+                          "0 N/m along x, which the stops of its recoil require");
         if (holds)
-            broken(rules, "tubes.supports.#.recoil", i + 1,
-                   "support %d holds the tube along x; remove its stiffness there, or give it a "
-                   "recoil too",
-                   holds);
+            report_broken(
+                rules, "tubes.supports.#.recoil", i + 1,
+                "support %d holds the tube along x; remove its stiffness there, or give it a "
+                "recoil too",
+                holds);
     }
 }
 
@@ -293,25 +299,25 @@ static void support_rules(const rule_set *rules)
     if (rules->model->run.start != LD_START_EQUILIBRIUM)
         return;
     if (along <= 0)
-        broken(rules, path, 0, "they do not hold the tube along x: no stiffness there");
+        report_broken(rules, path, 0, "they do not hold the tube along x: no stiffness there");
     if (about <= 0)
-        broken(rules, path, 0,
-               "they do not hold the tube against roll: no rotational_stiffness about x");
+        report_broken(rules, path, 0,
+                      "they do not hold the tube against roll: no rotational_stiffness about x");
     if (!plane_held(tubes, 1, 2))
-        broken(rules, path, 0,
-               "they do not hold the tube in the x-y plane: give stiffness along y at two "
-               "stations, or at one with rotational_stiffness about z");
+        report_broken(rules, path, 0,
+                      "they do not hold the tube in the x-y plane: give stiffness along y at two "
+                      "stations, or at one with rotational_stiffness about z");
     if (!plane_held(tubes, 2, 1))
-        broken(rules, path, 0,
-               "they do not hold the tube in the x-z plane: give stiffness along z at two "
-               "stations, or at one with rotational_stiffness about y");
+        report_broken(rules, path, 0,
+                      "they do not hold the tube in the x-z plane: give stiffness along z at two "
+                      "stations, or at one with rotational_stiffness about y");
 }
 
 static void tail_rules(const rule_set *rules)
 {
     const ld_tail *tail = &rules->model->tubes.tail;
     if (tail->mass == 0 && (tail->inertia[0] > 0 || tail->inertia[1] > 0 || tail->inertia[2] > 0))
-        broken(rules, "tubes.tail.inertia", 0, "given for a tail without mass");
+        report_broken(rules, "tubes.tail.inertia", 0, "given for a tail without mass");
     else
         inertia_rule(rules, "tubes.tail.inertia", tail->inertia, NULL);
 }
@@ -333,19 +339,20 @@ static void table_of_masses_rows(const rule_set *rules, const ld_table *table)
         char row_path[64];
         snprintf(row_path, sizeof row_path, "rocket.motor.masses.%zu", k + 1);
         if (k > 0 && row[MASSES_MASS] > row[MASSES_MASS - (int)table->columns]) {
-            broken(rules, path, (int)k + 1, "%g kg is more than the %g kg of the row before",
-                   row[MASSES_MASS], row[MASSES_MASS - (int)table->columns]);
+            report_broken(rules, path, (int)k + 1, "%g kg is more than the %g kg of the row before",
+                          row[MASSES_MASS], row[MASSES_MASS - (int)table->columns]);
             return;
         }
         ld_mass_data now = masses_at(rocket, k);
         if (now.mass <= 0) {
-            broken(rules, path, (int)k + 1, "leaves no mass of the rocket");
+            report_broken(rules, path, (int)k + 1, "leaves no mass of the rocket");
             return;
         }
         if (now.inertia[0] <= 0 || now.inertia[1] <= 0 || now.inertia[2] <= 0) {
-            broken(rules, path, (int)k + 1,
-                   "leaves the rocket moments of inertia of %g %g %g kg.m2 about its mass centre",
-                   now.inertia[0], now.inertia[1], now.inertia[2]);
+            report_broken(
+                rules, path, (int)k + 1,
+                "leaves the rocket moments of inertia of %g %g %g kg.m2 about its mass centre",
+                now.inertia[0], now.inertia[1], now.inertia[2]);
             return;
         }
         inertia_rule(rules, row_path, now.inertia, rocket->products);
@@ -362,18 +369,20 @@ static void table_of_masses_rules(const rule_set *rules)
     rising_rule(rules, "rocket.motor.masses.#", table, "s", false);
     if (!model->completed.empty_mass || !model->completed.empty_center[0] ||
         !model->completed.empty_inertia[0])
-        broken(rules, "rocket.empty", 0,
-               "given together with motor.masses, whose last row sets it; give one of them");
+        report_broken(rules, "rocket.empty", 0,
+                      "given together with motor.masses, whose last row sets it; give one of them");
     if (!model->completed.propellant)
-        broken(rules, "rocket.propellant", 0,
-               "given together with motor.masses, which sets it; give one of them");
+        report_broken(rules, "rocket.propellant", 0,
+                      "given together with motor.masses, which sets it; give one of them");
     if (last[MASSES_TIME] > end)
-        broken(rules, path, 0,
-               "ends at %g s, after the thrust, at %g s; give the thrust a last row of 0 N there",
-               last[MASSES_TIME], end);
+        report_broken(
+            rules, path, 0,
+            "ends at %g s, after the thrust, at %g s; give the thrust a last row of 0 N there",
+            last[MASSES_TIME], end);
     if (table->data[MASSES_MASS] > model->rocket.full.mass * (1 + 1e-9))
-        broken(rules, "rocket.motor.masses.1", 0, "%g kg is more than the whole rocket, of %g kg",
-               table->data[MASSES_MASS], model->rocket.full.mass);
+        report_broken(rules, "rocket.motor.masses.1", 0,
+                      "%g kg is more than the whole rocket, of %g kg", table->data[MASSES_MASS],
+                      model->rocket.full.mass);
     else
         table_of_masses_rows(rules, table);
 }
@@ -383,15 +392,15 @@ static void mass_rules(const rule_set *rules)
     const ld_rocket *rocket = &rules->model->rocket;
     bool by_table = rocket->motor.masses.rows > 0;
     if (rocket->empty.mass > rocket->full.mass && !rocket->motor.absent && !by_table)
-        broken(rules, "rocket.empty.mass", 0, "%g kg is more than the full mass, %g kg",
-               rocket->empty.mass, rocket->full.mass);
+        report_broken(rules, "rocket.empty.mass", 0, "%g kg is more than the full mass, %g kg",
+                      rocket->empty.mass, rocket->full.mass);
     if (rocket->empty.mass + rocket->mass_error <= 0 && (rocket->empty.mass > 0 || !by_table))
-        broken(rules, "rocket.mass_error", 0, "%g kg leaves no empty mass of %g kg",
-               rocket->mass_error, rocket->empty.mass);
+        report_broken(rules, "rocket.mass_error", 0, "%g kg leaves no empty mass of %g kg",
+                      rocket->mass_error, rocket->empty.mass);
     if (rocket->propellant >= rocket->full.mass + rocket->mass_error && !by_table)
-        broken(rules, "rocket.propellant", 0,
-               "%g kg must be less than the full mass with its error, %g kg", rocket->propellant,
-               rocket->full.mass + rocket->mass_error);
+        report_broken(rules, "rocket.propellant", 0,
+                      "%g kg must be less than the full mass with its error, %g kg",
+                      rocket->propellant, rocket->full.mass + rocket->mass_error);
     inertia_rule(rules, "rocket.inertia", rocket->full.inertia, rocket->products);
     if (by_table)
         table_of_masses_rules(rules);
@@ -406,23 +415,24 @@ static void adaptor_rules(const rule_set *rules)
     for (int i = 0; i < rocket->adaptor_count; i++) {
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         if (i == 0 && adaptor->at > 0)
-            broken(rules, "rocket.adaptors.1.at", 0,
-                   "%g m; the first adaptor is the rear one, at 0 m", adaptor->at);
+            report_broken(rules, "rocket.adaptors.1.at", 0,
+                          "%g m; the first adaptor is the rear one, at 0 m", adaptor->at);
         for (int j = 0; j < i; j++)
             if (adaptor->at == rocket->adaptor[j].at)
-                broken(rules, "rocket.adaptors.#.at", i + 1, "%g m is the position of adaptor %d",
-                       adaptor->at, j + 1);
+                report_broken(rules, "rocket.adaptors.#.at", i + 1,
+                              "%g m is the position of adaptor %d", adaptor->at, j + 1);
         for (int j = 0; j < i; j++) {
-            // a study's database does not tell capital letters from others in a column's name
+            // a study's database does not distinguish capital letters from others in a column's
+            // name
             const char *other = rocket->adaptor[j].name;
             if (adaptor->name[0] && strcasecmp(adaptor->name, other) == 0)
-                broken(rules, "rocket.adaptors.#.name", i + 1, "\"%s\" is the name of adaptor %d",
-                       other, j + 1);
+                report_broken(rules, "rocket.adaptors.#.name", i + 1,
+                              "\"%s\" is the name of adaptor %d", other, j + 1);
         }
     }
     if (rocket->start_at >= model->tubes.length)
-        broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
-               rocket->start_at, model->tubes.length);
+        report_broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
+                      rocket->start_at, model->tubes.length);
 }
 
 // Adaptors that are held on the axis exactly.
@@ -430,15 +440,16 @@ static void held_rules(const rule_set *rules)
 {
     const ld_rocket *rocket = &rules->model->rocket;
     if (rocket->adaptor_count > 2)
-        broken(rules, "rocket.contact.law", 0,
-               "ideal holds at most two adaptors on the axis; this rocket has %d",
-               rocket->adaptor_count);
+        report_broken(rules, "rocket.contact.law", 0,
+                      "ideal holds at most two adaptors on the axis; this rocket has %d",
+                      rocket->adaptor_count);
     if (rocket->contact.friction > 0)
-        broken(rules, "rocket.contact.friction", 0,
-               "%g; adaptors of the law ideal are held without friction", rocket->contact.friction);
+        report_broken(rules, "rocket.contact.friction", 0,
+                      "%g; adaptors of the law ideal are held without friction",
+                      rocket->contact.friction);
     if (!rocket->lock.present && isnan(rocket->contact.stiffness))
-        broken(rules, "rocket.contact.stiffness", 0,
-               "missing; without a lock the breech supports the rocket with this stiffness");
+        report_broken(rules, "rocket.contact.stiffness", 0,
+                      "missing; without a lock the breech supports the rocket with this stiffness");
 }
 
 static void contact_rules(const rule_set *rules)
@@ -449,15 +460,16 @@ static void contact_rules(const rule_set *rules)
     if (contact_has(contact->law, LD_CONTACT_HELD))
         held_rules(rules);
     else if (isnan(contact->stiffness))
-        broken(rules, "rocket.contact.stiffness", 0,
-               "missing; expected a number with a unit of N/m, > 0 N/m");
+        report_broken(rules, "rocket.contact.stiffness", 0,
+                      "missing; expected a number with a unit of N/m, > 0 N/m");
     bool linear = contact_has(contact->law, LD_CONTACT_LINEAR);
     if (linear && contact->exponent > 1)
-        broken(rules, "rocket.contact.exponent", 0, "%g; this law is linear, its exponent is 1",
-               contact->exponent);
+        report_broken(rules, "rocket.contact.exponent", 0,
+                      "%g; this law is linear, its exponent is 1", contact->exponent);
     if (!linear && contact->damping > 0)
-        broken(rules, "rocket.contact.damping", 0,
-               "requires the law kelvin-voigt or bilateral; this law damps by its restitution");
+        report_broken(
+            rules, "rocket.contact.damping", 0,
+            "requires the law kelvin-voigt or bilateral; this law damps by its restitution");
 }
 
 static void thrust_rules(const rule_set *rules)
@@ -468,8 +480,8 @@ static void thrust_rules(const rule_set *rules)
         return;
     rising_rule(rules, "rocket.motor.thrust.#", thrust, "s", true);
     if (thrust->data[0] > 0)
-        broken(rules, "rocket.motor.thrust.1", 0, "the first time must be 0 s, not %g s",
-               thrust->data[0]);
+        report_broken(rules, "rocket.motor.thrust.1", 0, "the first time must be 0 s, not %g s",
+                      thrust->data[0]);
     for (size_t i = 1; i < thrust->rows; i++) {
         const double *a = &thrust->data[2 * (i - 1)], *b = &thrust->data[2 * i];
         impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
@@ -477,15 +489,17 @@ static void thrust_rules(const rule_set *rules)
     }
     for (size_t i = 0; i < thrust->rows; i++)
         if (thrust->data[2 * i + 1] < -0.1 * greatest) {
-            broken(rules, "rocket.motor.thrust.#", (int)i + 1,
-                   "%g N; at most a tenth of the greatest thrust may be measured below 0, as 0",
-                   thrust->data[2 * i + 1]);
+            report_broken(
+                rules, "rocket.motor.thrust.#", (int)i + 1,
+                "%g N; at most a tenth of the greatest thrust may be measured below 0, as 0",
+                thrust->data[2 * i + 1]);
             return;
         }
     if (impulse == 0)
-        broken(rules, "rocket.motor.thrust", 0, "its impulse is 0 N.s");
+        report_broken(rules, "rocket.motor.thrust", 0, "its impulse is 0 N.s");
     if (impulse > 1e100)
-        broken(rules, "rocket.motor.thrust", 0, "its impulse is %g N.s, out of range", impulse);
+        report_broken(rules, "rocket.motor.thrust", 0, "its impulse is %g N.s, out of range",
+                      impulse);
 }
 
 static void over_time_rules(const rule_set *rules)
@@ -493,10 +507,10 @@ static void over_time_rules(const rule_set *rules)
     const ld_table *table = &rules->model->tubes.pressure.over_time;
     rising_rule(rules, "tubes.pressure.over_time.#", table, "s", true);
     if (table->rows > 0 && table->data[0] > 0)
-        broken(rules, "tubes.pressure.over_time.1", 0, "the first time must be 0 s, not %g s",
-               table->data[0]);
+        report_broken(rules, "tubes.pressure.over_time.1", 0,
+                      "the first time must be 0 s, not %g s", table->data[0]);
     if (table->rows == 1)
-        broken(rules, "tubes.pressure.over_time", 0, "needs at least two rows");
+        report_broken(rules, "tubes.pressure.over_time", 0, "needs at least two rows");
 }
 
 static void over_travel_rules(const rule_set *rules)
@@ -509,11 +523,11 @@ static void over_travel_rules(const rule_set *rules)
         return;
     double last = table->data[2 * (table->rows - 1)];
     if (table->data[0] > 0)
-        broken(rules, "tubes.pressure.over_travel.1", 0, "the first travel must be 0 m, not %g m",
-               table->data[0]);
+        report_broken(rules, "tubes.pressure.over_travel.1", 0,
+                      "the first travel must be 0 m, not %g m", table->data[0]);
     if (last < way)
-        broken(rules, "tubes.pressure.over_travel", 0,
-               "ends at %g m; the rocket travels %g m to the tip", last, way);
+        report_broken(rules, "tubes.pressure.over_travel", 0,
+                      "ends at %g m; the rocket travels %g m to the tip", last, way);
 }
 
 static void pressure_rules(const rule_set *rules)
@@ -521,30 +535,31 @@ static void pressure_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     const ld_pressure *pressure = &model->tubes.pressure;
     if (model->rocket.motor.absent && !pressure->present)
-        broken(rules, "rocket.motor", 0, "a launch requires a motor or tubes.pressure");
+        report_broken(rules, "rocket.motor", 0, "a launch requires a motor or tubes.pressure");
     if (model->rocket.motor.absent && model_has_jet(model))
-        broken(rules, "platform.jet", 0, "requires a motor");
+        report_broken(rules, "platform.jet", 0, "requires a motor");
     if (!pressure->present)
         return;
     if (model_has_surfaces(model))
-        broken(rules, "tubes.pressure", 0,
-               "requires a bore; a guide of surfaces is open behind the rocket");
+        report_broken(rules, "tubes.pressure", 0,
+                      "requires a bore; a guide of surfaces is open behind the rocket");
     if (pressure->form == LD_PRESSURE_OVER_TIME)
         over_time_rules(rules);
     if (pressure->form == LD_PRESSURE_OVER_TRAVEL)
         over_travel_rules(rules);
     double gas = pressure->scale * pressure->pressure;
     if (pressure->form == LD_PRESSURE_OF_GAS && gas <= pressure->ambient)
-        broken(rules, "tubes.pressure.pressure", 0,
-               "comes to %g Pa, no more than the ambient pressure, %g Pa", gas, pressure->ambient);
+        report_broken(rules, "tubes.pressure.pressure", 0,
+                      "comes to %g Pa, no more than the ambient pressure, %g Pa", gas,
+                      pressure->ambient);
 }
 
 static void coupling_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
     if (model->run.coupling_step > 0 && !model_has_vehicle(model) && (int)model->base.kind >= 0)
-        broken(rules, "run.coupling", 0,
-               "requires base.kind: vehicle; other bases have no subsystems to couple");
+        report_broken(rules, "run.coupling", 0,
+                      "requires base.kind: vehicle; other bases have no subsystems to couple");
 }
 
 // Heights rise, pressures fall, and no row has as much vapour as air.
@@ -556,13 +571,14 @@ static void air_profile_rules(const rule_set *rules)
     for (size_t i = 0; i < profile->rows; i++) {
         const double *row = profile->data + i * profile->columns;
         if (i > 0 && row[1] >= row[1 - (int)profile->columns])
-            broken(rules, path, (int)i + 1, "%g Pa is not below %g Pa in the row before", row[1],
-                   row[1 - (int)profile->columns]);
+            report_broken(rules, path, (int)i + 1, "%g Pa is not below %g Pa in the row before",
+                          row[1], row[1 - (int)profile->columns]);
         if (profile->columns == 4 && vapour_pressure(row[2], row[3]) > 0.5 * row[1])
-            broken(rules, path, (int)i + 1,
-                   "a humidity of %g at %g K is a vapour pressure of %g Pa, too much for air of "
-                   "%g Pa",
-                   row[3], row[2], vapour_pressure(row[2], row[3]), row[1]);
+            report_broken(
+                rules, path, (int)i + 1,
+                "a humidity of %g at %g K is a vapour pressure of %g Pa, too much for air of "
+                "%g Pa",
+                row[3], row[2], vapour_pressure(row[2], row[3]), row[1]);
     }
 }
 
@@ -573,15 +589,16 @@ static void environment_rules(const rule_set *rules)
     const ld_atmosphere *air = &environment->atmosphere;
     if (air->temperature_offset != 0 && air->kind != LD_ATMOSPHERE_US1976 &&
         air->kind != LD_ATMOSPHERE_PROFILE)
-        broken(rules, "environment.temperature_offset", 0,
-               "requires the atmosphere us1976 or a profile");
+        report_broken(rules, "environment.temperature_offset", 0,
+                      "requires the atmosphere us1976 or a profile");
     if (air->kind == LD_ATMOSPHERE_PROFILE)
         air_profile_rules(rules);
     if (!wind->present)
         return;
     rising_rule(rules, "environment.wind.profile.#", &wind->profile, "m", false);
     if (wind->profile.rows > 0 && wind->speed != 0)
-        broken(rules, "environment.wind.speed", 0, "given together with profile; give one of them");
+        report_broken(rules, "environment.wind.speed", 0,
+                      "given together with profile; give one of them");
 }
 
 static void brakes_rules(const rule_set *rules)
@@ -590,7 +607,7 @@ static void brakes_rules(const rule_set *rules)
     if (!brakes->present)
         return;
     if (rules->model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
-        broken(rules, "rocket.air_brakes", 0, "without an atmosphere they have no drag");
+        report_broken(rules, "rocket.air_brakes", 0, "without an atmosphere they have no drag");
     rising_rule(rules, "rocket.air_brakes.over_time.#", &brakes->over_time, "s", false);
     rising_rule(rules, "rocket.air_brakes.over_height.#", &brakes->over_height, "m", false);
 }
@@ -600,16 +617,17 @@ static void parachute_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     const ld_rocket *rocket = &model->rocket;
     if (rocket->parachute_count > 0 && model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
-        broken(rules, "rocket.parachutes", 0, "without an atmosphere parachutes have no drag");
+        report_broken(rules, "rocket.parachutes", 0,
+                      "without an atmosphere parachutes have no drag");
     for (int i = 0; i < rocket->parachute_count; i++) {
         const ld_parachute *one = &rocket->parachute[i];
         if (one->trigger == LD_TRIGGER_HEIGHT && model->environment.ground == LD_GROUND_NONE)
-            broken(rules, "rocket.parachutes.#.trigger", i + 1,
-                   "without ground there is no height above it");
+            report_broken(rules, "rocket.parachutes.#.trigger", i + 1,
+                          "without ground there is no height above it");
         for (int j = 0; j < i; j++)
             if (one->name[0] && strcasecmp(one->name, rocket->parachute[j].name) == 0)
-                broken(rules, "rocket.parachutes.#.name", i + 1,
-                       "\"%s\" is the name of parachute %d", one->name, j + 1);
+                report_broken(rules, "rocket.parachutes.#.name", i + 1,
+                              "\"%s\" is the name of parachute %d", one->name, j + 1);
     }
 }
 
@@ -619,7 +637,7 @@ static void end_rules(const rule_set *rules)
     if (model->run.end != LD_END_LANDING)
         return;
     if (model->environment.ground == LD_GROUND_NONE)
-        broken(rules, "run.end", 0, "without ground there is no landing; give a time");
+        report_broken(rules, "run.end", 0, "without ground there is no landing; give a time");
 }
 
 static void start_rules(const rule_set *rules)
@@ -630,16 +648,17 @@ static void start_rules(const rule_set *rules)
         !isnan(flight->velocity[0]) + !isnan(flight->speed) + !isnan(flight->velocity_ned[0]);
     const double *q = flight->quaternion;
     if (isnan(flight->position[0]) == !flight->geodetic.present)
-        broken(rules, "flight", 0, "needs one of position and geodetic");
+        report_broken(rules, "flight", 0, "needs one of position and geodetic");
     if (flight->geodetic.present && earth->kind == LD_EARTH_FLAT)
-        broken(rules, "flight.geodetic", 0, "requires a round or wgs84 Earth");
+        report_broken(rules, "flight.geodetic", 0, "requires a round or wgs84 Earth");
     if (velocities != 1)
-        broken(rules, "flight", 0, "needs one of velocity, speed and velocity_ned");
+        report_broken(rules, "flight", 0, "needs one of velocity, speed and velocity_ned");
     if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
-        broken(rules, "flight.quaternion", 0, "its norm is 0");
+        report_broken(rules, "flight.quaternion", 0, "its norm is 0");
     if (!isnan(q[0]) && flight->attitude != LD_ATTITUDE_QUATERNION &&
         (flight->yaw != 0 || flight->heading != 0 || flight->pitch != 0 || flight->roll != 0))
-        broken(rules, "flight.quaternion", 0, "given together with attitude; give one of them");
+        report_broken(rules, "flight.quaternion", 0,
+                      "given together with attitude; give one of them");
 }
 
 static void launch_rules(const rule_set *rules)
@@ -670,11 +689,12 @@ static void scatter_rules(const rule_set *rules)
     const ld_scatter *scatter = &rules->model->scatter;
     if (scatter->present && scatter->plan == LD_PLAN_LHS && scatter->replicates > 0 &&
         scatter->samples % scatter->replicates != 0)
-        broken(rules, "scatter.replicates", 0, "%d samples are not a multiple of %d replicates",
-               scatter->samples, scatter->replicates);
+        report_broken(rules, "scatter.replicates", 0,
+                      "%d samples are not a multiple of %d replicates", scatter->samples,
+                      scatter->replicates);
     if (scatter->until_count > 0 && scatter->plan == LD_PLAN_LHS && scatter->replicates < 2)
-        broken(rules, "scatter.until", 0,
-               "one hypercube gives no interval; set replicates, or plan: random");
+        report_broken(rules, "scatter.until", 0,
+                      "one hypercube gives no interval; set replicates, or plan: random");
 }
 
 void model_check_rules(const ld_model *model, rule_report *report, void *self)

@@ -14,19 +14,19 @@ static void emerged_rules(const rule_set *rules)
     if (!air->present || !air->emerged.present)
         return;
     if (!model_has_launcher(rules->model))
-        broken(rules, "rocket.aerodynamics.emerged", 0,
-               "requires a launcher; a scenario of flight only has no tube");
+        report_broken(rules, "rocket.aerodynamics.emerged", 0,
+                      "requires a launcher; a scenario of flight only has no tube");
     if (model_has_surfaces(rules->model))
-        broken(rules, "rocket.aerodynamics.emerged", 0,
-               "requires a bore; on a guide of surfaces the air acts on the whole rocket");
+        report_broken(rules, "rocket.aerodynamics.emerged", 0,
+                      "requires a bore; on a guide of surfaces the air acts on the whole rocket");
     if (air->model == LD_AERODYNAMICS_BODY && isnan(air->emerged.diameter))
-        broken(rules, "rocket.aerodynamics.emerged.diameter", 0,
-               "missing; a plain body has no reference_diameter in its place");
+        report_broken(rules, "rocket.aerodynamics.emerged.diameter", 0,
+                      "missing; a plain body has no reference_diameter in its place");
     for (int i = 0; i < rocket->adaptor_count; i++)
         if (air->emerged.nose < rocket->adaptor[i].at) {
-            broken(rules, "rocket.aerodynamics.emerged.nose", 0,
-                   "%g m lies behind adaptor \"%s\" at %g m", air->emerged.nose,
-                   rocket->adaptor[i].name, rocket->adaptor[i].at);
+            report_broken(rules, "rocket.aerodynamics.emerged.nose", 0,
+                          "%g m lies behind adaptor \"%s\" at %g m", air->emerged.nose,
+                          rocket->adaptor[i].name, rocket->adaptor[i].at);
             return;
         }
 }
@@ -41,9 +41,9 @@ static void mach_rule(const rule_set *rules, const char *path, const ld_table *t
     rising_rule(rules, row, table, "Mach", false);
     snprintf(row, sizeof row, "%s.1", path);
     if (table->data[0] > 0)
-        broken(rules, row, 0, "the first Mach number must be 0, not %g", table->data[0]);
+        report_broken(rules, row, 0, "the first Mach number must be 0, not %g", table->data[0]);
     if (table->rows == 1 && !one_row)
-        broken(rules, path, 0, "needs at least two rows");
+        report_broken(rules, path, 0, "needs at least two rows");
 }
 
 static void surface_rules(const rule_set *rules, const ld_aerodynamics *air)
@@ -54,8 +54,8 @@ static void surface_rules(const rule_set *rules, const ld_aerodynamics *air)
         const ld_air_surface *surface = &air->surface[i];
         for (int j = 0; j < i; j++)
             if (surface->name[0] && strcasecmp(surface->name, air->surface[j].name) == 0)
-                broken(rules, "rocket.aerodynamics.surfaces.#.name", i + 1,
-                       "\"%s\" is the name of surface %d", air->surface[j].name, j + 1);
+                report_broken(rules, "rocket.aerodynamics.surfaces.#.name", i + 1,
+                              "\"%s\" is the name of surface %d", air->surface[j].name, j + 1);
         if (surface->kind != LD_AIR_COEFFICIENTS)
             continue;
         snprintf(path, sizeof path, "rocket.aerodynamics.surfaces.%d.slope", i + 1);

@@ -16,12 +16,12 @@ static void headings_rule(const rule_set *rules, const ld_sea *sea)
     for (int i = 0; i < sea->response_count && sea->response_count > 1; i++) {
         double heading = sea->response[i].heading;
         if (isnan(heading))
-            broken(rules, "base.sea.responses.#", i + 1,
-                   "heading is missing; of several responses each needs its own");
+            report_broken(rules, "base.sea.responses.#", i + 1,
+                          "heading is missing; of several responses each needs its own");
         else if (i > 0 && heading <= sea->response[i - 1].heading)
-            broken(rules, "base.sea.responses.#.heading", i + 1,
-                   "%g deg does not come after %g deg of the response before", DEGREES(heading),
-                   DEGREES(sea->response[i - 1].heading));
+            report_broken(rules, "base.sea.responses.#.heading", i + 1,
+                          "%g deg does not come after %g deg of the response before",
+                          DEGREES(heading), DEGREES(sea->response[i - 1].heading));
     }
 }
 
@@ -34,12 +34,13 @@ static void covered_rule(const rule_set *rules, const ld_sea *sea)
     if (first > last || !(side < first - slack || side > last + slack))
         return;
     if (first == last)
-        broken(rules, "base.sea.heading", 0, "%g deg off x, but the response is that to %g deg",
-               DEGREES(side), DEGREES(first));
+        report_broken(rules, "base.sea.heading", 0,
+                      "%g deg off x, but the response is that to %g deg", DEGREES(side),
+                      DEGREES(first));
     else
-        broken(rules, "base.sea.heading", 0,
-               "%g deg off x, but the responses are those from %g deg to %g deg", DEGREES(side),
-               DEGREES(first), DEGREES(last));
+        report_broken(rules, "base.sea.heading", 0,
+                      "%g deg off x, but the responses are those from %g deg to %g deg",
+                      DEGREES(side), DEGREES(first), DEGREES(last));
 }
 
 static void sea_rules(const rule_set *rules)
@@ -49,7 +50,7 @@ static void sea_rules(const rule_set *rules)
     if (!sea->present)
         return;
     if (rules->model->gravity == 0)
-        broken(rules, "base.sea", 0, "without gravity there are no waves");
+        report_broken(rules, "base.sea", 0, "without gravity there are no waves");
     for (int i = 0; i < sea->response_count; i++) {
         snprintf(path, sizeof path, "base.sea.responses.%d.table.#", i + 1);
         rising_rule(rules, path, &sea->response[i].table, "rad/s", false);
@@ -59,10 +60,10 @@ static void sea_rules(const rule_set *rules)
     headings_rule(rules, sea);
     bool spread = !isnan(sea->spreading);
     if (spread && sea->spectrum == LD_SEA_REGULAR)
-        broken(rules, "base.sea.spreading", 0, "given for a regular sea, which is one wave");
+        report_broken(rules, "base.sea.spreading", 0, "given for a regular sea, which is one wave");
     else if (spread && sea->response_count == 1)
-        broken(rules, "base.sea.spreading", 0,
-               "waves of many headings need responses at two headings or more");
+        report_broken(rules, "base.sea.spreading", 0,
+                      "waves of many headings need responses at two headings or more");
     else if (!spread)
         covered_rule(rules, sea);
 }
@@ -78,10 +79,10 @@ static void motion_rows_rule(const rule_set *rules, const ld_table *motion)
     for (size_t i = 0; i < motion->rows; i++) {
         const double *row = motion->data + i * columns;
         if (i > 0 && row[0] <= motion->data[(i - 1) * columns])
-            broken(rules, "base.motion.table.#", (int)i + 1,
-                   "t is not larger than that of the row before");
+            report_broken(rules, "base.motion.table.#", (int)i + 1,
+                          "t is not larger than that of the row before");
         if (columns == 8 && !field_is_unit(row + 4))
-            broken(rules, "base.motion.table.#", (int)i + 1, NO_UNIT_QUATERNION);
+            report_broken(rules, "base.motion.table.#", (int)i + 1, NO_UNIT_QUATERNION);
     }
 }
 
@@ -99,14 +100,14 @@ static void motion_span_rule(const rule_set *rules)
     double end = model->firing[model->firing_count - 1].at;
     bool timed = model->run.end == LD_END_TIME;
     if (start < first)
-        broken(rules, "base.motion.table", 0, "begins at %g s, after the launch, at %g s%s", first,
-               start, model->base.motion_start == 0 ? UNTOLD_START : "");
+        report_broken(rules, "base.motion.table", 0, "begins at %g s, after the launch, at %g s%s",
+                      first, start, model->base.motion_start == 0 ? UNTOLD_START : "");
     if (timed && end + model->run.end_time > last)
-        broken(rules, "base.motion.table", 0, "ends at %g s, before the run's end, at %g s", last,
-               end + model->run.end_time);
+        report_broken(rules, "base.motion.table", 0, "ends at %g s, before the run's end, at %g s",
+                      last, end + model->run.end_time);
     else if (end >= last)
-        broken(rules, "base.motion.table", 0,
-               "ends at %g s; it must extend beyond the last ignition, at %g s", last, end);
+        report_broken(rules, "base.motion.table", 0,
+                      "ends at %g s; it must extend beyond the last ignition, at %g s", last, end);
 }
 
 void base_rules(const rule_set *rules)
@@ -117,20 +118,20 @@ void base_rules(const rule_set *rules)
     sea_rules(rules);
     motion_rows_rule(rules, &base->motion);
     if (base->motion.rows == 0 && base->motion_start != 0)
-        broken(rules, "base.motion.start", 0, "requires motion.table, whose clock it uses");
+        report_broken(rules, "base.motion.start", 0, "requires motion.table, whose clock it uses");
     if (base->motion.rows == 1)
-        broken(rules, "base.motion.table", 0, "needs at least two rows");
+        report_broken(rules, "base.motion.table", 0, "needs at least two rows");
     if (base->motion.rows == 0)
         return;
     if (base->surge.count + base->heave.count + base->sway.count + base->yaw.count +
             base->pitch.count + base->roll.count >
         0)
-        broken(rules, "base.motion.table", 0, "given together with sines; give one of them");
+        report_broken(rules, "base.motion.table", 0, "given together with sines; give one of them");
     if (base->velocity[0] != 0 || base->velocity[1] != 0 || base->velocity[2] != 0)
-        broken(rules, "base.velocity", 0,
-               "given together with motion.table, which gives the whole motion");
+        report_broken(rules, "base.velocity", 0,
+                      "given together with motion.table, which gives the whole motion");
     if (base->sea.present)
-        broken(rules, "base.sea", 0,
-               "given together with motion.table, which gives the whole motion");
+        report_broken(rules, "base.sea", 0,
+                      "given together with motion.table, which gives the whole motion");
     motion_span_rule(rules);
 }

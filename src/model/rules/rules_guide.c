@@ -12,21 +12,21 @@ static void bore_rules(const rule_set *rules)
     double bore = tubes->section_count > 0 ? tubes->section[0].bore_radius : NAN;
     for (int i = 0; i < tubes->section_count; i++)
         if (tubes->section[i].form != LD_SECTION_ANNULUS && isnan(tubes->section[i].bore_radius))
-            broken(rules, "tubes.sections.#.bore_radius", i + 1,
-                   "missing; expected a number with a unit of m, > 0 and <= 10 m");
+            report_broken(rules, "tubes.sections.#.bore_radius", i + 1,
+                          "missing; expected a number with a unit of m, > 0 and <= 10 m");
     if ((int)rocket->contact.law < 0 || contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))
         return;
     for (int i = 0; i < rocket->adaptor_count; i++) {
         double clearance = rocket->adaptor[i].clearance;
         if (isnan(clearance))
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "missing; expected a number with a unit of m, > 0 m");
+            report_broken(rules, "rocket.adaptors.#.clearance", i + 1,
+                          "missing; expected a number with a unit of m, > 0 m");
         if (clearance == 0)
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "must be > 0 m; without clearance use the contact law bilateral");
+            report_broken(rules, "rocket.adaptors.#.clearance", i + 1,
+                          "must be > 0 m; without clearance use the contact law bilateral");
         if (clearance >= bore)
-            broken(rules, "rocket.adaptors.#.clearance", i + 1,
-                   "%g m must be less than the bore's radius, %g m", clearance, bore);
+            report_broken(rules, "rocket.adaptors.#.clearance", i + 1,
+                          "%g m must be less than the bore's radius, %g m", clearance, bore);
     }
 }
 
@@ -38,14 +38,16 @@ static void surface_rules(const rule_set *rules)
         for (int j = 0; j < k; j++)
             if (guide->surface[k].name[0] &&
                 strcasecmp(guide->surface[k].name, guide->surface[j].name) == 0)
-                broken(rules, "tubes.guide.surfaces.#.name", k + 1,
-                       "\"%s\" is the name of surface %d", guide->surface[j].name, j + 1);
+                report_broken(rules, "tubes.guide.surfaces.#.name", k + 1,
+                              "\"%s\" is the name of surface %d", guide->surface[j].name, j + 1);
     if (model->tubes.slot.kind == LD_SLOT_HELIX)
-        broken(rules, "tubes.slot", 0, "requires a bore; with guide.surfaces give `slot: none`");
+        report_broken(rules, "tubes.slot", 0,
+                      "requires a bore; with guide.surfaces give `slot: none`");
     if ((int)model->rocket.contact.law >= 0 &&
         contact_has(model->rocket.contact.law, LD_CONTACT_TWO_SIDED))
-        broken(rules, "rocket.contact.law", 0,
-               "this law holds adaptors on the axis of a bore; on surfaces use a law of contact");
+        report_broken(
+            rules, "rocket.contact.law", 0,
+            "this law holds adaptors on the axis of a bore; on surfaces use a law of contact");
 }
 
 void guide_rules(const rule_set *rules)
@@ -56,6 +58,6 @@ void guide_rules(const rule_set *rules)
     else
         bore_rules(rules);
     if (model->rocket.lock.holds_roll == LD_HOLD_YES && model->tubes.slot.kind == LD_SLOT_HELIX)
-        broken(rules, "rocket.lock.holds_roll", 0,
-               "is not allowed with a slot, which holds the roll");
+        report_broken(rules, "rocket.lock.holds_roll", 0,
+                      "is not allowed with a slot, which holds the roll");
 }

@@ -36,7 +36,7 @@ static did_you_mean suggest_body(const ld_mechanism *given, const char *name)
     return answer;
 }
 
-// What may stand for a body.
+// What is allowed for a body.
 enum { ANY_BODY, BODY_ALONE };
 
 // The body of a name; where there is none, says so under path[i].key.
@@ -45,10 +45,10 @@ static int body_rule(const rule_set *rules, const char *path, int index, const c
     const ld_mechanism *given = mechanism_of(rules);
     int body = mechanism_body(given, name);
     if (body == LD_ON_NOTHING && name[0])
-        broken(rules, path, index, "no body or beam \"%s\"%s", name,
-               suggest_body(given, name).text);
+        report_broken(rules, path, index, "no body or beam \"%s\"%s", name,
+                      suggest_body(given, name).text);
     else if (body < 0 && body != LD_ON_NOTHING && what == BODY_ALONE)
-        broken(rules, path, index, "\"%s\" does not move; expected a body or a beam", name);
+        report_broken(rules, path, index, "\"%s\" does not move; expected a body or a beam", name);
     return body;
 }
 
@@ -60,7 +60,7 @@ static void names_rule(const rule_set *rules, const char *path, const char *firs
         for (int k = 0; k < i; k++) {
             const char *name = first + (size_t)i * stride;
             if (name[0] && strcmp(name, first + (size_t)k * stride) == 0)
-                broken(rules, path, i + 1, "\"%s\" is the name of number %d", name, k + 1);
+                report_broken(rules, path, i + 1, "\"%s\" is the name of number %d", name, k + 1);
         }
 }
 #define NAMES_RULE(path, list, count) names_rule(rules, path, (list)[0].name, sizeof *(list), count)
@@ -80,14 +80,14 @@ static void all_names_rule(const rule_set *rules)
     for (int i = 0; i < given->beam_count; i++) {
         int body = mechanism_body(given, given->beam[i].name);
         if (body >= 0 && body < given->body_count)
-            broken(rules, "base.beams.#.name", i + 1, "\"%s\" is the name of a body",
-                   given->beam[i].name);
+            report_broken(rules, "base.beams.#.name", i + 1, "\"%s\" is the name of a body",
+                          given->beam[i].name);
     }
     for (int i = 0; i < given->body_count; i++)
         if (strcmp(given->body[i].name, "ground") == 0 ||
             strcmp(given->body[i].name, "carrier") == 0)
-            broken(rules, "base.bodies.#.name", i + 1,
-                   "\"%s\" stands for what does not move freely", given->body[i].name);
+            report_broken(rules, "base.bodies.#.name", i + 1,
+                          "\"%s\" stands for what does not move freely", given->body[i].name);
 }
 
 // ---- joints
@@ -111,9 +111,10 @@ static void axis_rules(const rule_set *rules, int i)
     double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
                        a[0] * b[1] - a[1] * b[0]};
     if (has_axis && !(norm(a) > 0))
-        broken(rules, "base.joints.#.axis", i + 1, "its length is 0");
+        report_broken(rules, "base.joints.#.axis", i + 1, "its length is 0");
     else if (joint->kind == LD_JOINT_UNIVERSAL && !(norm(cross) > 1e-6 * norm(a) * norm(b)))
-        broken(rules, "base.joints.#.axis_2", i + 1, "is parallel to axis, or its length is 0");
+        report_broken(rules, "base.joints.#.axis_2", i + 1,
+                      "is parallel to axis, or its length is 0");
 }
 
 // A station of a beam is on it.
@@ -122,9 +123,9 @@ static void on_beam_rule(const rule_set *rules, const char *path, int index, int
     const ld_mechanism *given = mechanism_of(rules);
     int beam = body - given->body_count;
     if (body >= given->body_count && !(x >= 0 && x <= given->beam[beam].length))
-        broken(rules, path, index,
-               "station %g m is not on the beam \"%s\", which goes from 0 to %g m", x,
-               given->beam[beam].name, given->beam[beam].length);
+        report_broken(rules, path, index,
+                      "station %g m is not on the beam \"%s\", which goes from 0 to %g m", x,
+                      given->beam[beam].name, given->beam[beam].length);
 }
 
 // Which joint carries each body: the first that names it; -1: none.
@@ -149,28 +150,28 @@ static void joint_rules(const rule_set *rules, int i, const int *carrier)
     axis_rules(rules, i);
     on_beam_rule(rules, "base.joints.#.at", i + 1, parent, joint->at[0]);
     if (body >= 0 && body == parent)
-        broken(rules, "base.joints.#.body", i + 1, "\"%s\" is its own parent", joint->body);
+        report_broken(rules, "base.joints.#.body", i + 1, "\"%s\" is its own parent", joint->body);
     if (closes && joint->kind == LD_JOINT_FREE)
-        broken(rules, "base.joints.#.kind", i + 1,
-               "a free joint holds nothing: joint \"%s\" carries \"%s\" already",
-               given->joint[carrier[body]].name, joint->body);
+        report_broken(rules, "base.joints.#.kind", i + 1,
+                      "a free joint holds nothing: joint \"%s\" carries \"%s\" already",
+                      given->joint[carrier[body]].name, joint->body);
     if (body >= 0 && !closes && !isnan(joint->body_at[0]))
-        broken(rules, "base.joints.#.body_at", i + 1,
-               "requires a joint that closes a loop; this one carries \"%s\" at its origin",
-               joint->body);
+        report_broken(rules, "base.joints.#.body_at", i + 1,
+                      "requires a joint that closes a loop; this one carries \"%s\" at its origin",
+                      joint->body);
     if (closes && body >= 0)
         on_beam_rule(rules, "base.joints.#.body_at", i + 1, body,
                      isnan(joint->body_at[0]) ? 0 : joint->body_at[0]);
     if (joint->stops.present && !(joint->stops.low < joint->stops.high) &&
         !isnan(joint->stops.low) && !isnan(joint->stops.high))
-        broken(rules,
-               joint->kind == LD_JOINT_REVOLUTE ? "base.joints.#.stops"
-                                                : "base.joints.#.slide_stops",
-               i + 1, "`from` must be less than `to`");
+        report_broken(rules,
+                      joint->kind == LD_JOINT_REVOLUTE ? "base.joints.#.stops"
+                                                       : "base.joints.#.slide_stops",
+                      i + 1, "`from` must be less than `to`");
     bool held = joint->lock.spring.present || joint->stops.present || joint->friction.coulomb > 0 ||
                 joint->friction.viscous > 0;
     if (closes && held)
-        broken(
+        report_broken(
             rules, "base.joints.#", i + 1,
             "lock, stops and friction require a joint that carries its body; \"%s\" is carried by "
             "joint \"%s\"",
@@ -188,18 +189,20 @@ static void tree_rules(const rule_set *rules, const int *carrier)
         const char *path = beam ? "base.beams.#" : "base.bodies.#";
         const char *name = beam ? given->beam[number - 1].name : given->body[k].name;
         if (carrier[k] < 0) {
-            broken(rules, path, number,
-                   "no joint carries \"%s\"; a free joint on the ground leaves it to its springs",
-                   name);
+            report_broken(
+                rules, path, number,
+                "no joint carries \"%s\"; a free joint on the ground leaves it to its springs",
+                name);
             continue;
         }
         int at = k, steps = 0;
         while (at >= 0 && carrier[at] >= 0 && steps++ <= count)
             at = mechanism_body(given, given->joint[carrier[at]].parent);
         if (steps > count) {
-            broken(rules, path, number,
-                   "the joints that carry \"%s\" lead back to it; none of them reaches the ground",
-                   name);
+            report_broken(
+                rules, path, number,
+                "the joints that carry \"%s\" lead back to it; none of them reaches the ground",
+                name);
             return;
         }
     }
@@ -218,8 +221,9 @@ static void mass_rules(const rule_set *rules, const int *carrier)
         }
         bool fixed = carrier[k] >= 0 && given->joint[carrier[k]].kind == LD_JOINT_FIXED;
         if (end && !fixed && !(given->body[k].mass > 0))
-            broken(rules, "base.bodies.#.mass", k + 1,
-                   "must be > 0 kg: \"%s\" is an end of the tree of bodies", given->body[k].name);
+            report_broken(rules, "base.bodies.#.mass", k + 1,
+                          "must be > 0 kg: \"%s\" is an end of the tree of bodies",
+                          given->body[k].name);
         char path[64];
         snprintf(path, sizeof path, "base.bodies.%d.inertia", k + 1);
         inertia_rule(rules, path, given->body[k].inertia, NULL);
@@ -237,7 +241,7 @@ static void ends_rule(const rule_set *rules, const char *list, int index, const 
     int a = body_rule(rules, path[0], index, from, ANY_BODY);
     int b = body_rule(rules, path[1], index, to, ANY_BODY);
     if (a == b && a != LD_ON_NOTHING)
-        broken(rules, path[1], index, "\"%s\" is its `from`, too", to);
+        report_broken(rules, path[1], index, "\"%s\" is its `from`, too", to);
 }
 
 static void element_rules(const rule_set *rules)
@@ -260,7 +264,7 @@ static void element_rules(const rule_set *rules)
         snprintf(path, sizeof path, "base.loads.%d.moment.#", i + 1);
         rising_rule(rules, path, &load->moment, "s", false);
         if (load->force.rows == 0 && load->moment.rows == 0)
-            broken(rules, "base.loads.#", i + 1, "neither force nor moment is given");
+            report_broken(rules, "base.loads.#", i + 1, "neither force nor moment is given");
     }
 }
 
@@ -271,26 +275,27 @@ static void drive_rules(const rule_set *rules, const int *carrier)
         const ld_joint_drive *drive = &given->drive[i];
         int joint = mechanism_joint(given, drive->joint);
         if (joint < 0) {
-            broken(rules, "base.drives.#.joint", i + 1, "no joint \"%s\"", drive->joint);
+            report_broken(rules, "base.drives.#.joint", i + 1, "no joint \"%s\"", drive->joint);
             continue;
         }
         bool turns = drive->form == LD_DRIVE_ANGLE;
         int body = mechanism_body(given, given->joint[joint].body);
         if (!has_one_axis(&given->joint[joint]) ||
             turns != (given->joint[joint].kind == LD_JOINT_REVOLUTE))
-            broken(rules, "base.drives.#.joint", i + 1,
-                   "\"%s\" is not a %s joint, which a drive of %s requires", drive->joint,
-                   turns ? "revolute" : "prismatic", turns ? "an angle" : "a length");
+            report_broken(rules, "base.drives.#.joint", i + 1,
+                          "\"%s\" is not a %s joint, which a drive of %s requires", drive->joint,
+                          turns ? "revolute" : "prismatic", turns ? "an angle" : "a length");
         else if (body >= 0 && carrier[body] != joint)
-            broken(rules, "base.drives.#.joint", i + 1,
-                   "\"%s\" closes a loop; a drive requires a joint that carries its body",
-                   drive->joint);
+            report_broken(rules, "base.drives.#.joint", i + 1,
+                          "\"%s\" closes a loop; a drive requires a joint that carries its body",
+                          drive->joint);
         if (drive->of[0])
             body_rule(rules, "base.drives.#.of", i + 1, drive->of, BODY_ALONE);
         for (int k = 0; k < i; k++)
             if (strcmp(given->drive[k].joint, drive->joint) == 0)
-                broken(rules, "base.drives.#.joint", i + 1, "drive \"%s\" acts on \"%s\" already",
-                       given->drive[k].name, drive->joint);
+                report_broken(rules, "base.drives.#.joint", i + 1,
+                              "drive \"%s\" acts on \"%s\" already", given->drive[k].name,
+                              drive->joint);
     }
 }
 
@@ -302,29 +307,32 @@ static void wheels_on_rules(const rule_set *rules, const int *carrier)
     const ld_vehicle *vehicle = &rules->model->base.vehicle;
     if (vehicle->wheel_count == 0) {
         if (given->wheels_on[0])
-            broken(rules, "base.wheels_on", 0, "requires base.wheels");
+            report_broken(rules, "base.wheels_on", 0, "requires base.wheels");
         return;
     }
     if (!given->wheels_on[0]) {
-        broken(rules, "base.wheels_on", 0, "missing; expected the body that the wheels carry");
+        report_broken(rules, "base.wheels_on", 0,
+                      "missing; expected the body that the wheels carry");
         return;
     }
     int body = body_rule(rules, "base.wheels_on", 0, given->wheels_on, BODY_ALONE);
     if (body >= given->body_count)
-        broken(rules, "base.wheels_on", 0, "\"%s\" is a beam; expected a body", given->wheels_on);
+        report_broken(rules, "base.wheels_on", 0, "\"%s\" is a beam; expected a body",
+                      given->wheels_on);
     if (!(vehicle->tyre.radius > 0))
-        broken(rules, "base.tyre", 0, "missing; wheels require it");
+        report_broken(rules, "base.tyre", 0, "missing; wheels require it");
     if (!(vehicle->suspension.stiffness[0] > 0))
-        broken(rules, "base.suspension", 0, "missing; wheels require it");
+        report_broken(rules, "base.suspension", 0, "missing; wheels require it");
     if (isnan(vehicle->speed))
-        broken(rules, "base.speed", 0, "missing; wheels require it, 0 km/h where they are parked");
+        report_broken(rules, "base.speed", 0,
+                      "missing; wheels require it, 0 km/h where they are parked");
     bool free = body >= 0 && carrier[body] >= 0 &&
                 given->joint[carrier[body]].kind == LD_JOINT_FREE &&
                 mechanism_body(given, given->joint[carrier[body]].parent) == LD_ON_GROUND;
     if (body >= 0 && !free)
-        broken(rules, "base.wheels_on", 0,
-               "\"%s\" must hang on the ground by a free joint: its wheels carry it",
-               given->wheels_on);
+        report_broken(rules, "base.wheels_on", 0,
+                      "\"%s\" must hang on the ground by a free joint: its wheels carry it",
+                      given->wheels_on);
 }
 
 static void tubes_on_rules(const rule_set *rules)
@@ -332,13 +340,14 @@ static void tubes_on_rules(const rule_set *rules)
     const ld_mechanism *given = mechanism_of(rules);
     const ld_tubes *tubes = &rules->model->tubes;
     if (!tubes->on[0]) {
-        broken(rules, "tubes.on", 0, "missing; expected the body or beam that carries the tubes");
+        report_broken(rules, "tubes.on", 0,
+                      "missing; expected the body or beam that carries the tubes");
         return;
     }
     int body = body_rule(rules, "tubes.on", 0, tubes->on, BODY_ALONE);
     if (body >= given->body_count && tubes->layout.rows * tubes->layout.columns > 1)
-        broken(rules, "tubes.layout", 0, "a beam carries one tube, not %d",
-               tubes->layout.rows * tubes->layout.columns);
+        report_broken(rules, "tubes.layout", 0, "a beam carries one tube, not %d",
+                      tubes->layout.rows * tubes->layout.columns);
 }
 
 void mechanism_rules(const rule_set *rules)
@@ -346,7 +355,7 @@ void mechanism_rules(const rule_set *rules)
     int carrier[LD_MAX_BODIES + LD_MAX_BEAMS];
     if (!model_has_multibody(rules->model)) {
         if (rules->model->tubes.on[0])
-            broken(rules, "tubes.on", 0, "requires base.kind: multibody");
+            report_broken(rules, "tubes.on", 0, "requires base.kind: multibody");
         return;
     }
     const ld_mechanism *given = mechanism_of(rules);

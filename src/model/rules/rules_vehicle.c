@@ -15,10 +15,10 @@ static void coherence_rules(const rule_set *rules, const ld_road *road)
     bool coherent = road->tracks == LD_TRACKS_COHERENT;
     rising_rule(rules, "base.road.coherence.#", &road->coherence, "1/m", false);
     if (coherent && road->coherence.rows == 0)
-        broken(rules, "base.road.coherence", 0,
-               "missing; coherent tracks require the table of g over spatial frequency");
+        report_broken(rules, "base.road.coherence", 0,
+                      "missing; coherent tracks require the table of g over spatial frequency");
     if (road->coherence.rows > 0 && !coherent && (int)road->tracks >= 0)
-        broken(rules, "base.road.coherence", 0, "requires tracks: coherent");
+        report_broken(rules, "base.road.coherence", 0, "requires tracks: coherent");
 }
 
 // x of the chassis at the first instant and at the last one that is known of.
@@ -44,7 +44,7 @@ static void profile_rules(const rule_set *rules, const ld_road *road)
         return;
     rising_rule(rules, "base.road.table.#", profile, "m", false);
     if (profile->rows == 1) {
-        broken(rules, path, 0, "needs at least two rows");
+        report_broken(rules, path, 0, "needs at least two rows");
         return;
     }
     marching_span(rules->model, &first, &last);
@@ -54,10 +54,10 @@ static void profile_rules(const rule_set *rules, const ld_road *road)
     }
     double begin = profile->data[0], end = profile->data[(profile->rows - 1) * profile->columns];
     if (begin > first + behind || end < last + ahead)
-        broken(rules, path, 0,
-               "does not cover the run: it goes from %g m to %g m, the wheels from %g m "
-               "(speed, lead_in, mounts) to %g m at least",
-               begin, end, first + behind, last + ahead);
+        report_broken(rules, path, 0,
+                      "does not cover the run: it goes from %g m to %g m, the wheels from %g m "
+                      "(speed, lead_in, mounts) to %g m at least",
+                      begin, end, first + behind, last + ahead);
 }
 
 static void road_rules(const rule_set *rules)
@@ -67,17 +67,18 @@ static void road_rules(const rule_set *rules)
         return;
     if (road->iso_class == LD_ROAD_SMOOTH && road->sine_count == 0 && road->bump_count == 0 &&
         road->profile.rows == 0)
-        broken(rules, "base.road", 0,
-               "it has no height: give class, sines, bumps or table, or flat: true");
+        report_broken(rules, "base.road", 0,
+                      "it has no height: give class, sines, bumps or table, or flat: true");
     if (road->wavelengths[0] >= road->wavelengths[1])
-        broken(rules, "base.road.wavelengths", 0,
-               "the shortest, %g m, must be less than the longest, %g m", road->wavelengths[0],
-               road->wavelengths[1]);
+        report_broken(rules, "base.road.wavelengths", 0,
+                      "the shortest, %g m, must be less than the longest, %g m",
+                      road->wavelengths[0], road->wavelengths[1]);
     if (road->places[0] >= road->places[1])
-        broken(rules, "base.road.places", 0,
-               "the left track, z = %g m, must lie left of the right one, z = %g m (z is positive "
-               "to the right)",
-               road->places[0], road->places[1]);
+        report_broken(
+            rules, "base.road.places", 0,
+            "the left track, z = %g m, must lie left of the right one, z = %g m (z is positive "
+            "to the right)",
+            road->places[0], road->places[1]);
     coherence_rules(rules, road);
     profile_rules(rules, road);
 }
@@ -110,15 +111,15 @@ static void wheel_rules(const rule_set *rules)
         for (int k = 0; k < i; k++)
             if (vehicle->wheel[i].name[0] &&
                 strcmp(vehicle->wheel[i].name, vehicle->wheel[k].name) == 0)
-                broken(rules, "base.wheels.#.name", i + 1, "\"%s\" is the name of wheel %d",
-                       vehicle->wheel[i].name, k + 1);
+                report_broken(rules, "base.wheels.#.name", i + 1, "\"%s\" is the name of wheel %d",
+                              vehicle->wheel[i].name, k + 1);
     }
     if (vehicle->wheel_count >= 3 && on_one_line(vehicle))
-        broken(rules, "base.wheels", 0,
-               "they are on one line, seen from above: the vehicle would tip over");
+        report_broken(rules, "base.wheels", 0,
+                      "they are on one line, seen from above: the vehicle would tip over");
     if (vehicle->speed > 0 && driven == 0)
-        broken(rules, "base.drive.wheels", 0, "no wheel is driven; a speed of %g m/s requires one",
-               vehicle->speed);
+        report_broken(rules, "base.drive.wheels", 0,
+                      "no wheel is driven; a speed of %g m/s requires one", vehicle->speed);
 }
 
 static void suspension_rules(const rule_set *rules)
@@ -126,11 +127,12 @@ static void suspension_rules(const rule_set *rules)
     const ld_suspension *s = &rules->model->base.vehicle.suspension;
     bool stop = !isnan(s->bump_stop.compression) || !isnan(s->bump_stop.extension);
     if (stop && isnan(s->bump_stop.stiffness))
-        broken(rules, "base.suspension.bump_stop", 0,
-               "stiffness is missing; a stop requires it, in N/m, > 0 N/m");
+        report_broken(rules, "base.suspension.bump_stop", 0,
+                      "stiffness is missing; a stop requires it, in N/m, > 0 N/m");
     if (!stop && !isnan(s->bump_stop.stiffness))
-        broken(rules, "base.suspension.bump_stop", 0,
-               "compression and extension are missing; give the travel of one or both stops");
+        report_broken(
+            rules, "base.suspension.bump_stop", 0,
+            "compression and extension are missing; give the travel of one or both stops");
 }
 
 // ---- platforms
@@ -144,10 +146,10 @@ static void command_rules(const rule_set *rules, const char *path, const ld_tabl
     for (size_t i = 0; i < command->rows && pitch; i++) {
         double angle = command->data[i * command->columns + 1] * RADIAN;
         if (fabs(angle) >= 80)
-            broken(rules, row, (int)i + 1,
-                   "%g deg; a pitch command must lie between -80 and "
-                   "80 deg",
-                   angle);
+            report_broken(rules, row, (int)i + 1,
+                          "%g deg; a pitch command must lie between -80 and "
+                          "80 deg",
+                          angle);
     }
 }
 
@@ -162,11 +164,12 @@ static void sample_rules(const rule_set *rules, const char *path, const ld_stabi
                   {"sensor_resolution", s->resolution.angle > 0 || s->resolution.rate > 0}};
     for (int i = 0; i < 3 && s->sample == 0; i++)
         if (option[i].given)
-            broken(rules, path, 0, "sample is missing; %s requires it, in s, > 0 s and <= 10 s",
-                   option[i].name);
+            report_broken(rules, path, 0,
+                          "sample is missing; %s requires it, in s, > 0 s and <= 10 s",
+                          option[i].name);
     if (s->sample > 0 && s->delay > s->sample)
-        broken(rules, path, 0, "a delay of %g s is longer than the sample period of %g s", s->delay,
-               s->sample);
+        report_broken(rules, path, 0, "a delay of %g s is longer than the sample period of %g s",
+                      s->delay, s->sample);
 }
 
 // Without a lock the hinge needs its stabiliser whole, its gains or a cascade.
@@ -186,10 +189,12 @@ static void gain_rules(const rule_set *rules, const char *path, const ld_stabili
             strcat(missing, gain[i].name);
         }
     if (missing[0])
-        broken(rules, path, 0, "missing: %s; only a hinge with a lock does without", missing);
+        report_broken(rules, path, 0, "missing: %s; only a hinge with a lock does without",
+                      missing);
     if (s->slew > 0 && s->bandwidth == 0)
-        broken(rules, path, 0,
-               "bandwidth is missing; a slew limit requires it, in Hz, > 0 Hz and <= 10000 Hz");
+        report_broken(
+            rules, path, 0,
+            "bandwidth is missing; a slew limit requires it, in Hz, > 0 Hz and <= 10000 Hz");
     sample_rules(rules, path, s);
 }
 
@@ -201,13 +206,13 @@ static void jet_rules(const rule_set *rules, const ld_table *jet)
     rising_rule(rules, "platform.jet.#", jet, "m", false);
     const double *last = &jet->data[(jet->rows - 1) * jet->columns];
     if (jet->data[0] > 0)
-        broken(rules, "platform.jet.1", 0, "the first distance must be 0 m, not %g m",
-               jet->data[0]);
+        report_broken(rules, "platform.jet.1", 0, "the first distance must be 0 m, not %g m",
+                      jet->data[0]);
     if (last[1] > 0)
-        broken(rules, "platform.jet.#", (int)jet->rows,
-               "the last force must be 0 N, not %g N: the force ends there", last[1]);
+        report_broken(rules, "platform.jet.#", (int)jet->rows,
+                      "the last force must be 0 N, not %g N: the force ends there", last[1]);
     if (jet->rows == 1)
-        broken(rules, "platform.jet", 0, "needs at least two rows");
+        report_broken(rules, "platform.jet", 0, "needs at least two rows");
 }
 
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,

@@ -209,7 +209,7 @@ double estimate_front(const plausible_entry *at)
     return front;
 }
 
-// Where it tells how long the rocket is: in a bore. Buttons on a rail may be close together.
+// Where it says how long the rocket is: in a bore. Buttons on a rail may be close together.
 static double front_in_bore(const plausible_entry *at)
 {
     return model_has_surfaces(at->model) ? NAN : estimate_front(at);

@@ -34,9 +34,9 @@ static bool is_of_hinge(const plausible_rule *rule)
     return strncmp(rule->path, "platform.#", strlen("platform.#")) == 0;
 }
 
-// Whether the rule says something about entry `i`; then the note, whose path it fills.
-static bool is_noted(const plausible_rule *rule, const ld_model *model, int i,
-                     char path[LD_MAX_PATH], plausible_note *note)
+// Whether the rule says something about entry `i`; then the warning, whose path it fills.
+static bool is_implausible(const plausible_rule *rule, const ld_model *model, int i,
+                           char path[LD_MAX_PATH], plausible_note *note)
 {
     static const char *const hinges[HINGES] = {"azimuth", "elevation"};
     char number[16];
@@ -52,29 +52,29 @@ static bool is_noted(const plausible_rule *rule, const ld_model *model, int i,
 }
 
 // Calls `report` for each note, whatever it rests on.
-static void look_at_all(const ld_model *model, plausible_report *report, void *self)
+static void check_all_rules(const ld_model *model, plausible_report *report, void *self)
 {
     char path[LD_MAX_PATH];
     plausible_note note;
     for (int i = 0; i < TABLES; i++)
         for (const plausible_rule *rule = tables[i]; rule->path; rule++)
             for (int k = 0, count = entries(model, rule->path); k < count; k++)
-                if (is_noted(rule, model, k, path, &note))
+                if (is_implausible(rule, model, k, path, &note))
                     report(self, &note);
 }
 
-// Rules that have a note; of a hinge's each with its hinge.
-typedef struct noted_rules {
+// Rules that have a warning; of a hinge's each with its hinge.
+typedef struct reported_rules {
     const plausible_rule *rule[MOST_RULES];
     int hinge[MOST_RULES];
     int count;
     plausible_report *report;
     void *self;
-} noted_rules;
+} reported_rules;
 
 static void note_rule(void *self, const plausible_note *note)
 {
-    noted_rules *noted = self;
+    reported_rules *noted = self;
     int hinge = is_of_hinge(note->rule) ? note->entry : -1, last = noted->count - 1;
     bool known = last >= 0 && noted->rule[last] == note->rule && noted->hinge[last] == hinge;
     if (known || noted->count == MOST_RULES)
@@ -83,7 +83,7 @@ static void note_rule(void *self, const plausible_note *note)
     noted->hinge[noted->count++] = hinge;
 }
 
-// Whether the key of a rule is `key` or lies below it; NULL is no key.
+// Whether the key of a rule is `key` or lies below it; NULL is not a key.
 static bool is_below(const plausible_rule *rule, const char *key)
 {
     size_t length = key ? strlen(key) : 0;
@@ -91,10 +91,10 @@ static bool is_below(const plausible_rule *rule, const char *key)
            (rule->path[length] == '.' || rule->path[length] == '\0');
 }
 
-// Reports a note unless what it rests on is noted.
+// Reports a warning unless what it rests on gives a warning.
 static void report_first(void *self, const plausible_note *note)
 {
-    const noted_rules *noted = self;
+    const reported_rules *noted = self;
     for (int i = 0; i < noted->count; i++) {
         bool here = noted->hinge[i] < 0 || noted->hinge[i] == note->entry;
         if (noted->rule[i] != note->rule && here &&
@@ -105,12 +105,12 @@ static void report_first(void *self, const plausible_note *note)
     noted->report(noted->self, note);
 }
 
-void plausible_look(const ld_model *model, plausible_report *report, void *self)
+void plausible_check(const ld_model *model, plausible_report *report, void *self)
 {
-    noted_rules noted = {.report = report, .self = self};
-    look_at_all(model, note_rule, &noted);
+    reported_rules noted = {.report = report, .self = self};
+    check_all_rules(model, note_rule, &noted);
     if (noted.count > 0)
-        look_at_all(model, report_first, &noted);
+        check_all_rules(model, report_first, &noted);
 }
 
 // ---- the document

@@ -17,8 +17,8 @@ typedef struct plausible_note {
 typedef void plausible_report(void *self, const plausible_note *note);
 
 // Calls `report` for each rule that a model, which is complete and breaks no rule, falls under, but
-// for those that rest on a key that is noted itself.
-void plausible_look(const ld_model *model, plausible_report *report, void *self);
+// for those that rest on a key that gives a warning itself.
+void plausible_check(const ld_model *model, plausible_report *report, void *self);
 
 // The rules as Markdown, for docs/scenario.md.
 void plausible_write_markdown(FILE *stream);

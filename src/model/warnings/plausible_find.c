@@ -19,7 +19,7 @@ void plausible_put_entry(char path[LD_MAX_PATH], const char *pattern, const char
         snprintf(path, LD_MAX_PATH, "%s", pattern);
 }
 
-// A rule that is looked at.
+// A rule that is checked.
 typedef struct look {
     const plausible_rule *rule;
     plausible_entry at;

@@ -43,7 +43,7 @@ typedef struct plausible_rule {
     const char *what;  // the quantity that follows from the key; NULL: the key's own value
     const char *other; // what it is compared with: a term, or words; NULL: 1 unit
     const char *unit;  // of both
-    double low, high;  // of value/other: what lies outside is noted
+    double low, high;  // of value/other: what lies outside gives a warning
     plausible_form form;
     int column;        // of the table (PLAUSIBLE_GREATEST), from 0
     const char *a, *b; // terms of the value

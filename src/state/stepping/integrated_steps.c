@@ -47,7 +47,7 @@ static bool puts_back(const launch_state *launch)
 {
     const double long_lead_in = 10; // [s]
     const base_system *base = &launch->launcher.base;
-    bool moved = !base->kind->dynamics && !base->kind->stepping && !base->kind->tell;
+    bool moved = !base->kind->dynamics && !base->kind->stepping && !base->kind->receive_frame;
     return base->drifts || launching_holds_places(&launch->launcher.launching) ||
            (moved && model_run(launch->model)->lead_in > long_lead_in);
 }
@@ -90,7 +90,7 @@ static ld_status start(propagator *self, double t, const double *y, bool anew, l
     return integrator_start(integrator_of(self), t, y, error);
 }
 
-// After a stop the integrator starts anew, as one does that was saved there.
+// After a stop the integrator starts again, as one does that was saved there.
 integrator_outcome integrated_step(propagator *self, double t_stop, ld_error *error)
 {
     integrated_steps *steps = (integrated_steps *)self;

@@ -1,6 +1,6 @@
 // Steps of all states together by one integrator. With exponential steps it takes those in between
 // (long_steps.h); with subsystems apart it has the states of the launching one alone
-// (apart_steps.h).
+// (partitioned_steps.h).
 #ifndef LD_STATE_STEPPING_INTEGRATED_STEPS_H
 #define LD_STATE_STEPPING_INTEGRATED_STEPS_H
 

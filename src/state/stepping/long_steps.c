@@ -19,9 +19,9 @@ typedef struct long_steps {
 // Once a long step is taken, until the integrator takes over.
 static const stepper in_long_step;
 
-// All goes on as now as if it were rigid: what carries the tube by its own rates, the tube with its
-// base, wheels and the like straight on beside it.
-static void drift(double t, const double *y, const double *y_dot, double *rates, void *user)
+// All continues as now as if it were rigid: what carries the tube by its own rates, the tube with
+// its base, wheels and the like straight on beside it.
+static void rigid_rates(double t, const double *y, const double *y_dot, double *rates, void *user)
 {
     const long_steps *self = user;
     const launcher_system *launcher = &self->between.propagator.launch->launcher;
@@ -60,12 +60,12 @@ static int find_blocks(const launcher_system *launcher, int *block)
     return count;
 }
 
-bool long_steps_are_wanted(const launch_state *launch)
+bool long_steps_apply(const launch_state *launch)
 {
     const ld_run_settings *run = model_run(launch->model);
     const base_system *base = &launch->launcher.base;
     bool sampled = base->kind->next_sample && !isinf(base->kind->next_sample(base, -run->lead_in));
-    return run->lead_in_method == LD_LEAD_IN_EXPONENTIAL && !base->kind->tell && !sampled;
+    return run->lead_in_method == LD_LEAD_IN_EXPONENTIAL && !base->kind->receive_frame && !sampled;
 }
 
 static ld_status create(propagator *object, ld_error *error)
@@ -80,7 +80,7 @@ static ld_status create(propagator *object, ld_error *error)
         .block = self->block,
         .block_count = find_blocks(&launch->launcher, self->block),
         .row = model_run(launch->model)->output_step_lead_in,
-        .drift = drift,
+        .drift = rigid_rates,
     };
     memcpy(self->place, all.absolute, sizeof self->place);
     ld_status status = exponential_steps_create(&settings, &self->exponential, error);
@@ -97,7 +97,7 @@ static void release(propagator *object)
 // Whether the equations are such that long steps pay: nothing drives a rocket through its tube.
 static bool goes_slowly(const launch_state *launch)
 {
-    return !(launch->phase.rocket && launch_is_lit(launch));
+    return !(launch->phase.rocket && launch_is_ignited(launch));
 }
 
 // What stands in the tube: nothing, a rocket, one that is held.

@@ -5,9 +5,9 @@
 
 #include "state/stepping/stepper.h"
 
-// Whether a launch has such steps: they are asked for, and its base is neither told nor sampled at
-// instants of its own, too near to each other.
-bool long_steps_are_wanted(const launch_state *launch);
+// Whether a launch has such steps: they are asked for, and its base is neither reported nor sampled
+// at instants of its own, too near to each other.
+bool long_steps_apply(const launch_state *launch);
 
 extern const stepper long_stepper;
 

@@ -5,19 +5,19 @@
 #include <string.h>
 
 #include "model/parts.h"
-#include "state/stepping/apart_steps.h"
+#include "state/stepping/importer_steps.h"
 #include "state/stepping/integrated_steps.h"
 #include "state/stepping/long_steps.h"
-#include "state/stepping/outside_steps.h"
+#include "state/stepping/partitioned_steps.h"
 #include "state/stepping/stepper.h"
 #include "state/stepping/tolerances.h"
 
 static const stepper *stepper_of(const launch_state *launch, bool outside)
 {
-    return outside                          ? &outside_stepper
-           : apart_steps_are_wanted(launch) ? &apart_stepper
-           : long_steps_are_wanted(launch)  ? &long_stepper
-                                            : &integrated_stepper;
+    return outside                           ? &importer_stepper
+           : partitioned_steps_apply(launch) ? &partitioned_stepper
+           : long_steps_apply(launch)        ? &long_stepper
+                                             : &integrated_stepper;
 }
 
 ld_status propagator_create(launch_state *launch, bool outside, propagator **out, ld_error *error)
@@ -28,7 +28,7 @@ ld_status propagator_create(launch_state *launch, bool outside, propagator **out
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the integration");
     self->stepper = by;
     self->launch = launch;
-    self->events = events_of(launch, by != &apart_stepper);
+    self->events = events_of(launch, by != &partitioned_stepper);
     ld_status status = by->create(self, error);
     if (status)
         propagator_free(self);

@@ -1,6 +1,6 @@
 // Takes a launcher forward in time, step by step: all subsystems by one integrator, or each by its
 // own with exchanges at fixed instants (run.coupling; model.md section 2), or all by one outside,
-// of which only the points are told (outside_steps.h).
+// of which only the points are reported (importer_steps.h).
 #ifndef LD_STATE_STEPPING_PROPAGATOR_H
 #define LD_STATE_STEPPING_PROPAGATOR_H
 
@@ -13,8 +13,8 @@ typedef struct propagator propagator;
 ld_status propagator_create(launch_state *launch, bool outside, propagator **out, ld_error *error);
 void propagator_free(propagator *self);
 
-// As those of integrator.h, for the whole state; an event is asked for by its name.
-// `anew`: the state is another one, nothing of before goes on.
+// As those of integrator.h, for the whole state; an event is asked for by its name. `anew`: the
+// state is another one, nothing of before continues.
 ld_status propagator_start(propagator *self, double t, const double *y, bool anew, ld_error *error);
 integrator_outcome propagator_step(propagator *self, double t_stop, ld_error *error);
 integrator_outcome propagator_return(propagator *self, double t, ld_error *error);

@@ -28,7 +28,7 @@ int64_t draw_permuted(const uint64_t key[2], uint64_t first, uint64_t second, in
     return (int64_t)x;
 }
 
-// The factor's number by itself, as if it were in no group.
+// The factor's number on its own, as if it were in no group.
 static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int64_t sample,
                          int rocket)
 {
@@ -43,7 +43,7 @@ static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int
 }
 
 // The number of member `member` of a group: that of the normal score sum_k L_ik z_k, z_k those of
-// the first members by themselves (Gaussian copula).
+// the first members on their own (Gaussian copula).
 static double draw_in_group(const ld_scatter *scatter, const ld_correlated *group, int member,
                             int64_t sample, int rocket)
 {

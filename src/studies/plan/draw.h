@@ -1,5 +1,5 @@
-// Drawn values of factors (model.md, section 10): functions of the study's seed, the factor's path,
-// the number of the sample and that of the rocket, whatever else is drawn.
+// Sampled values of factors (model.md, section 10): functions of the study's seed, the factor's
+// path, the number of the sample and that of the rocket, whatever else is sampled.
 #ifndef LD_STUDIES_DRAW_H
 #define LD_STUDIES_DRAW_H
 
@@ -10,7 +10,7 @@
 
 // The number in (0, 1) for sample `sample` (from 1) and rocket `rocket` (from 1; 0: of the sample),
 // `factor` being one of scatter->factor. The first member of a correlated group has the number that
-// it would have by itself.
+// it would have on its own.
 double draw_uniform(const ld_scatter *scatter, const ld_factor *factor, int64_t sample, int rocket);
 
 // What the factor's distribution makes of `u` in (0, 1); place and nominal value of the number.

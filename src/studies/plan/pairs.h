@@ -25,7 +25,7 @@ typedef struct paired_statistics {
 
 // The mean difference: Student's t over groups. Ratios: jackknife over groups of pairs of the
 // ratio's logarithm, with Student's t (R. G. Miller, Ann. Math. Stat. 39, 1968; Efron and
-// Tibshirani, An introduction to the bootstrap, 1993, chapter 11), which wants neither normal
+// Tibshirani, An introduction to the bootstrap, 1993, chapter 11), which requires neither normal
 // values nor independent rockets within a group. NaN: intervals of one group, ratios of fewer than
 // three groups or where one side does not scatter, `within` where samples have one pair each.
 // @return LD_OK, LD_ERR_MEMORY

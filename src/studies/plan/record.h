@@ -10,12 +10,12 @@
 // How many numbers a record holds; of a study, the most that one may hold.
 typedef struct study_shape {
     int64_t rockets;
-    int64_t of_sample, of_rocket; // values drawn once a sample, and for every rocket
+    int64_t of_sample, of_rocket; // values sampled once a sample, and for every rocket
     int64_t results;              // of every rocket
 } study_shape;
 
-// `value`: those drawn for the sample, then of each rocket in the order of firing its tube, the
-// values drawn for it, its results (NaN: did not happen).
+// `value`: those sampled for the sample, then of each rocket in the order of firing its tube, the
+// values sampled for it, its results (NaN: did not happen).
 typedef struct study_record {
     int64_t number;  // of the sample, from 1
     int64_t outcome; // an ld_status

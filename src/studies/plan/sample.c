@@ -108,7 +108,7 @@ ld_status sample_draw(study_sample *self, const study_sampler *sampler, int64_t 
     int rockets = sampler->nominal->firing_count;
     *self->model = *sampler->nominal;
     self->model->sample = (int)number;
-    model_forget(self->model); // it follows from what is drawn, for each rocket
+    model_forget(self->model); // it follows from what is sampled, for each rocket
     double *drawn = draw_row(self, sampler, number, 0, self->drawn);
     ld_rocket shared = self->model->rocket;
     ld_status status = LD_OK;

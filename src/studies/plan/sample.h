@@ -1,4 +1,4 @@
-// One sample of a study: the scenario's model with the values drawn for it.
+// One sample of a study: the scenario's model with the values sampled for it.
 #ifndef LD_STUDIES_SAMPLE_H
 #define LD_STUDIES_SAMPLE_H
 
@@ -11,7 +11,7 @@
 typedef struct study_sampler {
     const ld_model *nominal;
     int factor_count;
-    int of_sample, of_rocket; // factors drawn once a sample, and for every rocket
+    int of_sample, of_rocket; // factors sampled once a sample, and for every rocket
     field_place *place;    // of each factor as many as it has numbers, one factor after the other
     int *first;            // [factors] its first place
     double *nominal_value; // [factors]

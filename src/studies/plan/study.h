@@ -1,6 +1,6 @@
 // A study as read: the scenario's model at each point of its sweep (one point where there is none)
 // and, found once, where its factors are. Sample numbers go round the points, so that a study with
-// more samples goes on with the numbers that follow; at all points the same numbers are drawn.
+// more samples continues with the numbers that follow; at all points the same numbers are sampled.
 #ifndef LD_STUDIES_STUDY_H
 #define LD_STUDIES_STUDY_H
 

@@ -6,7 +6,7 @@
 #include "model/parts.h"
 #include "studies/run/until.h"
 
-bool ledger_goes_on(void *self)
+bool ledger_continues(void *self)
 {
     const study_ledger *ledger = self;
     const ld_study_options *options = ledger->options;
@@ -32,12 +32,12 @@ void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
 // ---- handing out
 
 // The next number up to self->look that is not kept; 0: there is none.
-static int64_t next_up_to_look(study_ledger *self)
+static int64_t next_up_to_check(study_ledger *self)
 {
     bool there = true;
     ld_error error;
     int64_t number = 0;
-    while (there && self->next <= self->look && ledger_goes_on(self)) {
+    while (there && self->next <= self->look && ledger_continues(self)) {
         number = self->next;
         self->next += self->step;
         ld_status status = store_has(&self->store, number, &there, &error);
@@ -48,7 +48,7 @@ static int64_t next_up_to_look(study_ledger *self)
 }
 
 // All samples up to self->look are kept: looks whether they are enough, and how many are next.
-static void look_at_rule(study_ledger *self)
+static void check_rule(study_ledger *self)
 {
     ld_error error;
     ld_study_counts *counts = self->counts;
@@ -60,8 +60,8 @@ static void look_at_rule(study_ledger *self)
         self->last = counts->samples = self->look;
         status = store_set_samples(&self->store, self->last, &error);
     } else {
-        self->look = self->study->points * until_next_look(model_scatter(self->study->nominal),
-                                                           self->look / self->study->points);
+        self->look = self->study->points * until_next_check(model_scatter(self->study->nominal),
+                                                            self->look / self->study->points);
         counts->look = self->look;
     }
     if (status)
@@ -71,13 +71,13 @@ static void look_at_rule(study_ledger *self)
 static int64_t next_number(study_ledger *self)
 {
     for (;;) {
-        int64_t number = next_up_to_look(self);
+        int64_t number = next_up_to_check(self);
         self->running += number != 0;
-        if (number != 0 || !ledger_goes_on(self) || self->decided)
+        if (number != 0 || !ledger_continues(self) || self->decided)
             return number;
         if (self->running > 0)
             return LEDGER_WAIT;
-        look_at_rule(self);
+        check_rule(self);
     }
 }
 
@@ -92,17 +92,17 @@ int64_t ledger_next(study_ledger *self)
 
 // ---- keeping
 
-static ld_status put(study_ledger *self, const study_record *record, ld_error *error)
+static ld_status put_record(study_ledger *self, const study_record *record, ld_error *error)
 {
     ld_status status = store_put(&self->store, record, error);
     if (status)
         return status;
     // where it stops and a reader is in the way, the next run settles it
     status = store_settle(&self->store, false, error);
-    return ledger_goes_on(self) ? status : LD_OK;
+    return ledger_continues(self) ? status : LD_OK;
 }
 
-static void keep(study_ledger *self, const study_record *record)
+static void keep_record(study_ledger *self, const study_record *record)
 {
     ld_error error;
     self->running -= record->number > 0;
@@ -112,7 +112,7 @@ static void keep(study_ledger *self, const study_record *record)
     }
     ld_status status = record->outcome == LD_ERR_MEMORY
                            ? ld_fail(&error, LD_ERR_MEMORY, "%s", record->reason)
-                           : put(self, record, &error);
+                           : put_record(self, record, &error);
     if (status) {
         stop(self, status, &error);
         return;
@@ -127,18 +127,18 @@ static void keep(study_ledger *self, const study_record *record)
 void ledger_keep(study_ledger *self, const study_record *record)
 {
     pthread_mutex_lock(&self->at_work);
-    keep(self, record);
+    keep_record(self, record);
     pthread_mutex_unlock(&self->at_work);
 }
 
 // ---- from begin to end
 
-// Someone reads what the writer wants to write: wait as long as the study may go on.
+// Someone reads what the writer wants to write: wait as long as the study may continue.
 static int wait_for_reader(void *self, int count)
 {
     (void)count;
     nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
-    return ledger_goes_on(self);
+    return ledger_continues(self);
 }
 
 void ledger_open(study_ledger *self, const ld_study *study, const store_place *place,
@@ -166,7 +166,7 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
     self->look = self->last;
     self->decided = scatter->until_count == 0;
     if (!self->decided)
-        self->look = counts->look = study->points * until_next_look(scatter, 0);
+        self->look = counts->look = study->points * until_next_check(scatter, 0);
     if (status) {
         self->status = status;
         self->stopped = true;
@@ -175,14 +175,14 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
 
 ld_status ledger_close(study_ledger *self)
 {
-    bool interrupted = !ledger_goes_on(self) && self->counts->done < self->counts->samples;
+    bool interrupted = !ledger_continues(self) && self->counts->done < self->counts->samples;
     if (self->open) {
         ld_error error;
         ld_status status = store_settle(&self->store, true, &error);
         if (status && !interrupted)
             stop(self, status, &error);
         status = store_check_place(&self->store, &error);
-        if (status) // there is nothing to go on with
+        if (status) // there is nothing to continue with
             stop(self, status, &error);
         store_close(&self->store);
     }

@@ -17,9 +17,9 @@ typedef struct study_ledger {
     const char *folder;
     study_store store;
     bool open;
-    int64_t next, step, last; // number to be looked at, from one to the next, of the last sample
-    int64_t look;             // number after which the stopping rule is looked at; without one last
-    bool decided;             // there is no rule, or it was looked at for the last time
+    int64_t next, step, last; // number to be checked, from one to the next, of the last sample
+    int64_t look;             // number after which the stopping rule is checked; without one last
+    bool decided;             // there is no rule, or it was checked for the last time
     int running;              // samples handed out that have not come back
     ld_status status;         // why it stopped
     ld_error *error;
@@ -41,7 +41,7 @@ enum { LEDGER_WAIT = -1 };
 void ledger_keep(study_ledger *self, const study_record *record);
 // Stops: what runs is not waited for.
 void ledger_stop(study_ledger *self, ld_status status, const ld_error *error);
-// Whether samples are still wanted; `self` is a ledger.
-bool ledger_goes_on(void *self);
+// Whether samples are still requested; `self` is a ledger.
+bool ledger_continues(void *self);
 
 #endif

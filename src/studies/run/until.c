@@ -5,7 +5,7 @@
 #include "model/parts.h"
 #include "studies/store/study_data.h"
 
-int64_t until_next_look(const ld_scatter *scatter, int64_t samples)
+int64_t until_next_check(const ld_scatter *scatter, int64_t samples)
 {
     enum { LEAST_SAMPLES = 20, LEAST_HYPERCUBES = 5 };
     const double growth = 1.25;

@@ -42,7 +42,7 @@ typedef struct permission {
     void *argument;
 } permission;
 
-static bool may_go_on(void *self, double share)
+static bool may_continue(void *self, double share)
 {
     const permission *asked = self;
     (void)share;
@@ -51,7 +51,7 @@ static bool may_go_on(void *self, double share)
 
 static ld_status run_sample(study_worker *self, permission *asked, ld_error *error)
 {
-    ld_run_options options = {.self = asked, .progress = may_go_on};
+    ld_run_options options = {.self = asked, .progress = may_continue};
     ld_status status = simulation_renew(&self->simulation, self->sample->model, error);
     return status ? status : ld_simulation_run(self->simulation, &options, self->summary, error);
 }
@@ -70,7 +70,7 @@ static double result_of(const quantity_walk *at, const ld_model *model,
     return here.item < 0 || here.item >= things.count[each] ? NAN : quantity_value(&here, rocket);
 }
 
-// The numbers of the record: what was drawn and what came of it.
+// The numbers of the record: what was sampled and what came of it.
 static void fill_values(study_worker *self)
 {
     const ld_model *model = self->sample->model;
@@ -142,7 +142,7 @@ static bool take_number(lane_workers *self, lane_worker *one)
     return one->number > 0;
 }
 
-static void keep(lane_workers *self, lane_worker *one, ld_status outcome)
+static void keep_outcome(lane_workers *self, lane_worker *one, ld_status outcome)
 {
     fill_record(&one->worker, one->number, outcome, &one->error);
     ledger_keep(self->ledger, one->worker.record);
@@ -167,7 +167,7 @@ static bool next_flight(void *user, int lane, lane_flight *flight)
             flight->error = &one->error;
             return true;
         }
-        keep(self, one, status);
+        keep_outcome(self, one, status);
     }
     return false;
 }
@@ -176,7 +176,7 @@ static void flight_done(void *user, int lane, lane_flight *flight, ld_status sta
 {
     lane_workers *self = user;
     (void)flight;
-    keep(self, &self->lane[lane], status);
+    keep_outcome(self, &self->lane[lane], status);
 }
 
 static ld_status fly_all(study_ledger *ledger, ld_error *error)
@@ -187,8 +187,8 @@ static ld_status fly_all(study_ledger *ledger, ld_error *error)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for flights side by side");
     const lane_source source = {next_flight, flight_done, self, NULL};
     self->ledger = ledger;
-    self->asked = (permission){ledger_goes_on, ledger};
-    self->options = (ld_run_options){.self = &self->asked, .progress = may_go_on};
+    self->asked = (permission){ledger_continues, ledger};
+    self->options = (ld_run_options){.self = &self->asked, .progress = may_continue};
     ld_status status = LD_OK;
     for (int i = 0; i < lanes && !status; i++)
         status = worker_create(&self->lane[i].worker, ledger->study, error);
@@ -217,7 +217,7 @@ static ld_status run_one_by_one(study_ledger *ledger, ld_error *error)
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
             continue;
         }
-        worker_run(&worker, number, ledger_goes_on, ledger);
+        worker_run(&worker, number, ledger_continues, ledger);
         ledger_keep(ledger, worker.record);
     }
     worker_free(&worker);

@@ -15,7 +15,7 @@ static ld_status no_memory(ld_error *error)
 // ---- which point
 
 // ", did you mean "NAME"?", or nothing.
-static const char *meant(const name_suggestion *suggestion, char text[512])
+static const char *suggestion_text(const name_suggestion *suggestion, char text[512])
 {
     text[0] = '\0';
     if (suggestion->name)
@@ -33,7 +33,7 @@ static ld_status find_axis(const study_data *data, const char *key, int *axis, l
         suggestion_offer(&suggestion, data->swept[*axis]);
     }
     return ld_fail(error, LD_ERR_INPUT, "--against %.200s: the study does not sweep it%s", key,
-                   meant(&suggestion, nearest));
+                   suggestion_text(&suggestion, nearest));
 }
 
 // Whether two values are written alike but for spaces.
@@ -63,7 +63,7 @@ static ld_status find_value(const study_data *data, int axis, const char *text, 
     }
     return ld_fail(error, LD_ERR_INPUT,
                    "--against %.200s: no point of the study has \"%.200s\" there%s",
-                   data->swept[axis], text, meant(&suggestion, nearest));
+                   data->swept[axis], text, suggestion_text(&suggestion, nearest));
 }
 
 // Cuts the first KEY=VALUE off a list, at a comma outside brackets; returns what follows.

@@ -21,7 +21,7 @@ static void print_cell(FILE *stream, sqlite3_stmt *row, int column)
         fprintf(stream, "%.17g", sqlite3_column_double(row, column));
     } else if (type != SQLITE_NULL) {
         const char *text = (const char *)sqlite3_column_text(row, column);
-        csv_text(stream, text ? text : ""); // NULL: no memory, which the next step tells
+        csv_text(stream, text ? text : ""); // NULL: no memory, which the next step reports
     }
 }
 
@@ -65,7 +65,7 @@ static ld_status export_rows(const study_data *data, const char *csv, const char
 }
 
 // That not all samples are in what has been written, and what else has failed, if anything.
-static ld_status tell_damage(const study_data *data, ld_status failed, ld_error *error)
+static ld_status report_damage(const study_data *data, ld_status failed, ld_error *error)
 {
     const ld_error also = failed && error ? *error : (ld_error){.text = ""};
     return ld_fail(error, failed ? failed : LD_ERR_INPUT,
@@ -83,7 +83,7 @@ ld_status ld_study_export(const char *folder, const char *csv, const char *hdf5,
     status = export_rows(&data, csv, hdf5, error);
     numeric_locale_leave(before);
     if (data.damage.status)
-        status = tell_damage(&data, status, error);
+        status = report_damage(&data, status, error);
     study_data_close(&data);
     return status;
 }

@@ -82,7 +82,7 @@ static void fill_cell(const hdf5_writer *self, int i, size_t at)
     } else {
         const char *text = (const char *)sqlite3_column_text(row, i);
         memset(cell, 0, STATUS);
-        if (text) // else no memory, which the next step tells
+        if (text) // else no memory, which the next step reports
             memcpy(cell, text, strnlen(text, STATUS - 1));
     }
 }

@@ -35,7 +35,7 @@ typedef struct footprint_item {
 
 typedef struct footprint_format {
     const char *ending;
-    bool on_earth; // wants a place
+    bool on_earth; // requires a place
     void (*begin)(footprint_writer *self);
     void (*region)(footprint_writer *self, const footprint_item *item);
     void (*end)(footprint_writer *self);

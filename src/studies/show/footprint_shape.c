@@ -71,7 +71,7 @@ static void take_line(void *self, double (*corner)[2], size_t count)
         line->hole = area_of(line) < 0;
 }
 
-static bool holds(const footprint_line *line, const double at[2])
+static bool contains(const footprint_line *line, const double at[2])
 {
     bool inside = false;
     for (size_t i = 0, k = line->count - 1; i < line->count; k = i++) {
@@ -89,7 +89,8 @@ static const footprint_line *outline_of(const footprint_shape *all, const footpr
     const footprint_line *least = NULL;
     for (size_t i = 0; i < all->count; i++) {
         const footprint_line *line = &all->line[i];
-        if (!line->hole && holds(line, hole->at[0]) && (!least || area_of(line) < area_of(least)))
+        if (!line->hole && contains(line, hole->at[0]) &&
+            (!least || area_of(line) < area_of(least)))
             least = line;
     }
     return least;

@@ -93,7 +93,7 @@ static void print_statistics(const shown *self, const group_statistics *of)
 }
 
 // Whether any result shown takes more than one value there.
-static bool scatters(const shown *self, const group_statistics *of)
+static bool has_scatter(const shown *self, const group_statistics *of)
 {
     for (int i = 0; i < self->count; i++)
         if (of[i].greatest > of[i].least)
@@ -303,7 +303,7 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     const group_statistics *of = shown_statistics(self, point), *most = most_values(self, of);
     if (status || !most)
         return status;
-    if (!scatters(self, of)) {
+    if (!has_scatter(self, of)) {
         print_values(self, of);
         return LD_OK;
     }
@@ -394,7 +394,7 @@ static ld_status print_csv(void *pairs, FILE *stream, ld_error *error)
 }
 
 // What follows all points.
-static ld_status conclude(shown *self, ld_error *error)
+static ld_status print_conclusion(shown *self, ld_error *error)
 {
     const ld_study_view *view = self->view;
     if (!view->against) {
@@ -418,7 +418,7 @@ static ld_status print_all(shown *self, ld_error *error)
         status = show_json(self, error);
     for (int i = 0; i < data->point_count && !status && !view->json; i++)
         status = print_point(self, &data->point[i], error);
-    return status ? status : conclude(self, error);
+    return status ? status : print_conclusion(self, error);
 }
 
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,

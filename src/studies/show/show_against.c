@@ -34,7 +34,7 @@ static int item_columns(const show_against *self, int i, const study_column *col
     return 2;
 }
 
-static int items(const show_against *self)
+static int item_count(const show_against *self)
 {
     return self->count + STUDY_PAIRS;
 }
@@ -60,7 +60,7 @@ ld_status show_against_each(show_against *self, const study_point *point, show_a
     ld_status status = LD_OK;
     if (against_reference(self->of, point) == point)
         return LD_OK;
-    for (int i = 0; i < items(self) && !status; i++) {
+    for (int i = 0; i < item_count(self) && !status; i++) {
         const study_column *column[2];
         paired_statistics of;
         int columns = item_columns(self, i, column);

@@ -22,8 +22,8 @@ typedef struct agreement {
 // Welch's t over groups (B. L. Welch, Biometrika 34, 1947, with Satterthwaite's degrees of
 // freedom), of independent values his very test: of the means; of the deviations, of the logarithms
 // of the mean distances from the median, after Levene's test in the form of M. B. Brown and A. B.
-// Forsythe (J. Am. Stat. Assoc. 69, 1974), which wants no normal values. A number lies outside its
-// interval of 95 % where p < 0.05. NaN where one side has too few groups (two, three for the
+// Forsythe (J. Am. Stat. Assoc. 69, 1974), which requires no normal values. A number lies outside
+// its interval of 95 % where p < 0.05. NaN where one side has too few groups (two, three for the
 // deviation) or does not scatter.
 // @return LD_OK, LD_ERR_MEMORY
 ld_status agreement_of(grouped_values first, grouped_values second, agreement *result);

@@ -19,8 +19,8 @@ typedef struct placed {
     double kernel[2]; // width in nodes
 } placed;
 
-static void turn(const double *x, const double *y, size_t count, const covariance_ellipse *e,
-                 double *const at[2])
+static void turn_to_axes(const double *x, const double *y, size_t count,
+                         const covariance_ellipse *e, double *const at[2])
 {
     double c = cos(e->angle), s = sin(e->angle);
     for (size_t i = 0; i < count; i++) {
@@ -120,7 +120,7 @@ ld_status density_of(const double *x, const double *y, size_t count, double effe
     if (!room)
         return LD_ERR_MEMORY;
     placed points = {.at = {room, room + count}, .count = count, .effective = effective};
-    turn(x, y, count, &e, points.at);
+    turn_to_axes(x, y, count, &e, points.at);
     lay_grid(map, &e, &points);
     share_out(map, &points);
     for (size_t k = 0; k < DENSITY_GRID; k++) {
@@ -142,7 +142,7 @@ ld_status density_of(const double *x, const double *y, size_t count, double effe
 
 // Of a cell, corner k and side k from there to the next corner, gone round from the first axis of
 // the map to the second. A piece of the contour leads from a side that leaves what is denser to the
-// next one that comes back to it, and goes on in the cell beyond.
+// next one that comes back to it, and continues in the cell beyond.
 static const int corner_at[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
 static const int beyond_side[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
 
@@ -153,34 +153,34 @@ typedef struct contour_walk {
     double corner[2 * DENSITY_GRID * DENSITY_GRID + 1][2]; // of a line, in nodes
 } contour_walk;
 
-static double excess(const contour_walk *walk, int i, int j, int k)
+static double excess_density(const contour_walk *walk, int i, int j, int k)
 {
     return walk->map->value[i + corner_at[k][0]][j + corner_at[k][1]] - walk->level;
 }
 
-static bool leaves(const contour_walk *walk, int i, int j, int k)
+static bool line_leaves(const contour_walk *walk, int i, int j, int k)
 {
-    return excess(walk, i, j, k) > 0 && !(excess(walk, i, j, k + 1) > 0);
+    return excess_density(walk, i, j, k) > 0 && !(excess_density(walk, i, j, k + 1) > 0);
 }
 
-static bool returns(const contour_walk *walk, int i, int j, int k)
+static bool line_returns(const contour_walk *walk, int i, int j, int k)
 {
-    return !(excess(walk, i, j, k) > 0) && excess(walk, i, j, k + 1) > 0;
+    return !(excess_density(walk, i, j, k) > 0) && excess_density(walk, i, j, k + 1) > 0;
 }
 
 // Goes along the line that leaves cell i, j by side k; the number of its corners.
-static size_t follow(contour_walk *walk, int i, int j, int k)
+static size_t follow_line(contour_walk *walk, int i, int j, int k)
 {
     size_t count = 0;
     for (; !(walk->gone[i][j] & 1 << k); count++) {
-        double from = excess(walk, i, j, k), to = excess(walk, i, j, k + 1);
+        double from = excess_density(walk, i, j, k), to = excess_density(walk, i, j, k + 1);
         const int *a = corner_at[k], *b = corner_at[k + 1];
         walk->gone[i][j] |= (unsigned char)(1 << k);
         walk->corner[count][0] = i + a[0] + from / (from - to) * (b[0] - a[0]);
         walk->corner[count][1] = j + a[1] + from / (from - to) * (b[1] - a[1]);
         do
             k = (k + 1) % 4;
-        while (!returns(walk, i, j, k));
+        while (!line_returns(walk, i, j, k));
         i += beyond_side[k][0];
         j += beyond_side[k][1];
         k = (k + 2) % 4;
@@ -198,8 +198,8 @@ ld_status density_contour(const density_map *map, double level, density_sink *ta
     for (int i = 0; i < LAST; i++)
         for (int j = 0; j < LAST; j++)
             for (int k = 0; k < 4; k++)
-                if (leaves(walk, i, j, k) && !(walk->gone[i][j] & 1 << k))
-                    take(self, walk->corner, follow(walk, i, j, k));
+                if (line_leaves(walk, i, j, k) && !(walk->gone[i][j] & 1 << k))
+                    take(self, walk->corner, follow_line(walk, i, j, k));
     free(walk);
     return LD_OK;
 }

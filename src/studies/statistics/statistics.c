@@ -145,7 +145,7 @@ typedef struct resample {
     uint32_t drawn[MOST];
 } resample;
 
-// Resamples with at least so many random numbers, which are drawn once for all studies.
+// Resamples with at least so many random numbers, which are sampled once for all studies.
 static const resample *draw_resamples(size_t count)
 {
     static const uint64_t key[2] = {0x626f6f7473747261, 0x70}; // "bootstrap"
@@ -292,7 +292,7 @@ static double skewness(const grouped *self, double mean)
 
 // Counts the groups and sums over them; mean and variance of all values, of which there is one or
 // more.
-static ld_status gather(grouped *self, double *mean, double *squares)
+static ld_status gather_groups(grouped *self, double *mean, double *squares)
 {
     for (size_t i = 0; i < self->count; i++)
         self->groups += i == 0 || self->group[i] != self->group[i - 1];
@@ -317,7 +317,7 @@ static ld_status moments(grouped *self, group_statistics *result, double *reach)
     *reach = 0;
     if (self->count == 0)
         return LD_OK;
-    ld_status status = gather(self, &result->mean.value, &squares);
+    ld_status status = gather_groups(self, &result->mean.value, &squares);
     if (status)
         return status;
     result->groups = self->groups;
@@ -338,7 +338,7 @@ ld_status uncertain_mean_of(const double *value, const int64_t *group, size_t co
     grouped self = {.value = value, .group = group, .count = count};
     double squares;
     *mean = (uncertain){NAN, NAN, NAN};
-    ld_status status = count > 0 ? gather(&self, &mean->value, &squares) : LD_OK;
+    ld_status status = count > 0 ? gather_groups(&self, &mean->value, &squares) : LD_OK;
     if (!status && self.groups > 1)
         *mean = (uncertain){mean->value, variance_of_mean(&self), (double)self.groups - 1};
     free(self.of);
@@ -375,7 +375,7 @@ ld_status tail_quantile_of(const double *value, const int64_t *group, size_t cou
     grouped self = {.value = value, .group = group, .count = count};
     double mean, squares, n = (double)count, tail = (1 - confidence) / 2;
     double *sorted = malloc(count * sizeof *sorted);
-    ld_status status = sorted ? gather(&self, &mean, &squares) : LD_ERR_MEMORY;
+    ld_status status = sorted ? gather_groups(&self, &mean, &squares) : LD_ERR_MEMORY;
     if (!status) {
         memcpy(sorted, value, count * sizeof *sorted);
         sort_values(sorted, count);

@@ -71,7 +71,7 @@ static ld_status list_shards(shard_list *self, const char *folder, ld_error *err
 }
 
 // The first cell that a query gives, to be freed; NULL: it gives none.
-static ld_status ask(study_store *self, const char *query, char **answer, ld_error *error)
+static ld_status first_cell(study_store *self, const char *query, char **answer, ld_error *error)
 {
     const store_view view = store_main(self);
     return store_first_text(&view, store_prepare(self, query, error), answer, error);
@@ -131,12 +131,12 @@ static ld_status expect_same(const store_view *part, ld_error *error)
     study_store *self = part->store;
     char *differs = NULL;
     ld_status status =
-        ask(self,
-            "SELECT name FROM part.study AS p JOIN main.study AS m USING (name) WHERE "
-            "p.value != m.value AND name IN ('version', 'scenario') UNION ALL "
-            "SELECT 'table ' || name FROM part.sqlite_master WHERE sql NOT IN "
-            "(SELECT sql FROM main.sqlite_master WHERE sql NOT NULL)",
-            &differs, error);
+        first_cell(self,
+                   "SELECT name FROM part.study AS p JOIN main.study AS m USING (name) WHERE "
+                   "p.value != m.value AND name IN ('version', 'scenario') UNION ALL "
+                   "SELECT 'table ' || name FROM part.sqlite_master WHERE sql NOT IN "
+                   "(SELECT sql FROM main.sqlite_master WHERE sql NOT NULL)",
+                   &differs, error);
     if (differs)
         status = ld_fail(error, LD_ERR_INPUT, "%s and %s are of different studies: in their %s",
                          part->path, self->path, differs);
@@ -150,9 +150,9 @@ static ld_status add_part(const store_view *part, ld_error *damage, ld_error *er
     study_store *self = part->store;
     store_kept kept;
     char *begun = NULL, *here = NULL, *tables = NULL;
-    ld_status status = ask(self, "SELECT 1 FROM part.sqlite_master", &begun, error);
+    ld_status status = first_cell(self, "SELECT 1 FROM part.sqlite_master", &begun, error);
     if (!status && begun)
-        status = ask(self, "SELECT 1 FROM main.sqlite_master", &here, error);
+        status = first_cell(self, "SELECT 1 FROM main.sqlite_master", &here, error);
     bool there = begun, first = !here;
     free(begun);
     free(here);
@@ -224,7 +224,7 @@ static ld_status print_unfinished(study_store *self, const char *path, int64_t s
         return LD_OK;
     snprintf(query, sizeof query, "SELECT count(*) FROM sample WHERE (sample - %d) %% %d = 0",
              shard, shards);
-    ld_status status = ask(self, query, &text, error);
+    ld_status status = first_cell(self, query, &text, error);
     if (status)
         return status;
     int64_t kept = text ? atoll(text) : 0,
@@ -259,7 +259,7 @@ static ld_status print_state(study_store *self, const shard_list *list, FILE *st
 {
     ld_study_counts counts;
     char *begun;
-    ld_status status = ask(self, "SELECT 1 FROM main.sqlite_master", &begun, error);
+    ld_status status = first_cell(self, "SELECT 1 FROM main.sqlite_master", &begun, error);
     if (!status && !begun)
         status = ld_fail(error, LD_ERR_INPUT, "no shard of %s has begun", self->path);
     free(begun);

@@ -19,7 +19,7 @@ static uint64_t *digest_in(const study_pending *self, int index)
     return (uint64_t *)(void *)(self->slot + (size_t)index * self->slot_size);
 }
 
-// FNV-1a by words: tells what was not written whole, or for another study.
+// FNV-1a by words: says what was not written whole, or for another study.
 static uint64_t digest(const study_pending *self, const study_record *record)
 {
     const unsigned char *bytes = (const unsigned char *)record;

@@ -50,7 +50,7 @@ static ld_status prepare_all(study_store *self, ld_error *error)
 
 // What acts of itself is none of a study's; what a view or a trigger of a forged one would do is
 // not done, even before it is refused.
-static int distrust(sqlite3 *database)
+static int disable_triggers(sqlite3 *database)
 {
     static const int options[] = {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
                                   SQLITE_DBCONFIG_TRUSTED_SCHEMA};
@@ -60,8 +60,8 @@ static int distrust(sqlite3 *database)
     return result;
 }
 
-// From one kind of journal to another leads only what nobody else has open; for that SQLite does
-// not wait by itself.
+// From one kind of journal to another leads only what no one else has open; for that SQLite does
+// not wait on its own.
 static ld_status set_journal(study_store *self, ld_error *error)
 {
     enum { PAUSE = 20 }; // [ms]
@@ -81,7 +81,7 @@ static ld_status open_database(study_store *self, store_journal journal, ld_erro
     // one thread at a time
     const int mode = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
     if (sqlite3_open_v2(self->path, &self->database, mode, NULL) != SQLITE_OK ||
-        distrust(self->database) != SQLITE_OK)
+        disable_triggers(self->database) != SQLITE_OK)
         return store_fail(self, "open", error);
     self->journal = journal;
     ld_status status = set_journal(self, error);
@@ -362,8 +362,8 @@ static char *file_uri(const char *path, const char *query)
     return sqlite3_str_finish(text);
 }
 
-// A database in WAL mode wants its side files, which a reader may have to make; where it may not
-// and none is there, nobody writes.
+// A database in WAL mode requires its side files, which a reader may have to make; where it may not
+// and none is there, no one writes.
 static int open_to_read(study_store *self, const char *folder)
 {
     char log[sizeof self->path + 8], *name;
@@ -388,7 +388,7 @@ ld_status store_open_to_read(study_store *self, const char *folder, ld_error *er
         return ld_fail(error, LD_ERR_INPUT, "%s contains no study: cannot read %s: %s", folder,
                        self->path, strerror(errno));
     ld_status status = LD_OK;
-    if (open_to_read(self, folder) != SQLITE_OK || distrust(self->database) != SQLITE_OK ||
+    if (open_to_read(self, folder) != SQLITE_OK || disable_triggers(self->database) != SQLITE_OK ||
         sqlite3_busy_timeout(self->database, PATIENCE) != SQLITE_OK ||
         sqlite3_exec(self->database, "PRAGMA query_only = 1; BEGIN; SELECT 1 FROM sqlite_master",
                      NULL, NULL, NULL) != SQLITE_OK)

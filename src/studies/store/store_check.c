@@ -16,7 +16,7 @@ static bool is_damage(int result)
 
 // ---- what is said once
 
-// Goes on with the rows of a query.
+// Continues with the rows of a query.
 static ld_status digest_rows(const store_view *self, const char *format, uint32_t *digest,
                              ld_error *error)
 {
@@ -173,7 +173,7 @@ static int read_sample(store_walk *self, int64_t from, bool *intact)
                   (int32_t)self->digest == sqlite3_column_int64(self->sample, DIGEST);
         result = rockets == SQLITE_DONE ? SQLITE_ROW : rockets;
     }
-    // what of a row could not be had, without memory, is told here
+    // what of a row could not be made, without memory, is reported here
     const int after = sqlite3_reset(self->sample);
     return result == SQLITE_ROW && after != SQLITE_OK ? after : result;
 }
@@ -209,8 +209,8 @@ void store_walk_end(store_walk *self)
 // ---- the verdict
 
 // The number, or the last line of the text, that a query gives first.
-static ld_status ask(const store_view *self, const char *format, int64_t *number, char text[160],
-                     ld_error *error)
+static ld_status first_value(const store_view *self, const char *format, int64_t *number,
+                             char text[160], ld_error *error)
 {
     sqlite3_stmt *row = store_view_prepare(self, format, error);
     if (!row)
@@ -250,12 +250,12 @@ ld_status store_walk_verdict(const store_walk *self, ld_error *error)
     if (self->intact > self->kept.samples || self->sum != self->kept.sum)
         return ld_fail(error, LD_ERR_INPUT, "%s is damaged: it has samples that were not stored",
                        view->path);
-    ld_status status = ask(view, "SELECT count(*) FROM %s.rocket", &rockets, text, error);
+    ld_status status = first_value(view, "SELECT count(*) FROM %s.rocket", &rockets, text, error);
     if (!status && rockets != self->all_rockets)
         status = ld_fail(error, LD_ERR_INPUT, "%s is damaged: it has rockets without a sample",
                          view->path);
     if (!status)
-        status = ask(view, "PRAGMA %s.integrity_check(1)", &none, text, error);
+        status = first_value(view, "PRAGMA %s.integrity_check(1)", &none, text, error);
     if (!status && strcmp(text, "ok") != 0)
         status = ld_fail(error, LD_ERR_INPUT, "%s is damaged: %s", view->path, text);
     return status;

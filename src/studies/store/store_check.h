@@ -1,7 +1,7 @@
-// What a database says of itself, so that damage is told.
-// Each sample has a digest of its rows (row_digest.h), and the row `kept` of the table `study` says
-// how many samples there are, the greatest number, the sum of their digests, and a digest of all
-// that is said once (the tables themselves, `study`, `point`, `origin`) and of these three numbers.
+// What a database says of itself, so that damage is reported. Each sample has a digest of its rows
+// (row_digest.h), and the row `kept` of the table `study` says how many samples there are, the
+// greatest number, the sum of their digests, and a digest of all that is said once (the tables
+// themselves, `study`, `point`, `origin`) and of these three numbers.
 #ifndef LD_STUDIES_STORE_CHECK_H
 #define LD_STUDIES_STORE_CHECK_H
 
@@ -15,7 +15,7 @@ ld_status store_seal(study_store *self, ld_error *error);
 // The same, where only samples were added.
 ld_status store_write_kept(study_store *self, ld_error *error);
 
-// A way through the samples that are as they were kept, in the order of their numbers; it goes on
+// A way through the samples that are as they were kept, in the order of their numbers; it continues
 // behind those that are not, also where the database's pages are damaged.
 typedef struct store_walk {
     store_view view;

@@ -8,7 +8,7 @@
 #include "studies/plan/study.h"
 #include "studies/store/pending.h"
 
-// How a commit is made sure. The write-ahead log is quick and wants one machine's memory; the
+// How a commit is made sure. The write-ahead log is quick and requires one machine's memory; the
 // rollback journal serves files on a network too.
 typedef enum store_journal { STORE_AHEAD, STORE_ROLLBACK } store_journal;
 

@@ -3,8 +3,8 @@
 //           strata, kept (store_check.h)
 //   origin  (kind, name, text): facts of each `program`, texts of each `file` and `set`
 //   point   (point, then a text for each swept key)
-//   sample  (sample, point, status, reason, then the factors drawn once a sample, digest)
-//   rocket  (sample, rocket, tube, then the factors drawn for every rocket, then the results)
+//   sample  (sample, point, status, reason, then the factors sampled once a sample, digest)
+//   rocket  (sample, rocket, tube, then the factors sampled for every rocket, then the results)
 // `digest` is that of the sample's rows in `rocket` and of its own (row_digest.h).
 // Numbers are stored with all their bits; what is not there is NULL.
 #ifndef LD_STUDIES_STORE_TABLES_H

@@ -1,10 +1,10 @@
-// A database that is looked at, and its texts: those of the table `study`, or what a row has.
+// A database that is checked, and its texts: those of the table `study`, or what a row has.
 #ifndef LD_STUDIES_STORE_TEXT_H
 #define LD_STUDIES_STORE_TEXT_H
 
 #include "studies/store/store_database.h"
 
-// A database that is looked at: the store's own, "main", or one attached to it.
+// A database that is checked: the store's own, "main", or one attached to it.
 typedef struct store_view {
     study_store *store;
     const char *schema, *path;

@@ -31,7 +31,7 @@ static ld_status no_memory(ld_error *error)
 }
 
 // Keeps a text until the end, if it is one; NULL: no memory.
-static const char *keep(study_reader *self, char *text)
+static const char *keep_text(study_reader *self, char *text)
 {
     if (self->texts == self->text_capacity) {
         int capacity = self->text_capacity ? 2 * self->text_capacity : 64;
@@ -54,7 +54,7 @@ static const char *column_text(study_reader *self, sqlite3_stmt *row, int column
     const char *text = (const char *)sqlite3_column_text(row, column);
     if (!text && sqlite3_column_type(row, column) != SQLITE_NULL)
         return NULL;
-    return keep(self, strdup(text ? text : ""));
+    return keep_text(self, strdup(text ? text : ""));
 }
 
 // ---- columns
@@ -151,7 +151,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
             self->column[i].unit = place.row->unit;
         self->column[i].seed = distribution_of(factor->distribution)->traits & LD_SEED;
     }
-    data->title = keep(self, strdup(model.title ? model.title : ""));
+    data->title = keep_text(self, strdup(model.title ? model.title : ""));
     model_clear(&model);
     return data->title ? LD_OK : no_memory(error);
 }
@@ -216,7 +216,7 @@ static ld_status list_points(study_data *data, ld_error *error)
     status = make_points(data, points, error);
     for (int k = 0; k < data->swept_count && !status; k++) {
         const char *name = sqlite3_column_name(row, k + 1);
-        if (!(self->swept[k] = keep(self, name ? strdup(name) : NULL)))
+        if (!(self->swept[k] = keep_text(self, name ? strdup(name) : NULL)))
             status = no_memory(error);
     }
     for (int i = 0; i < data->point_count && !status; i++) {
@@ -231,7 +231,7 @@ static ld_status list_points(study_data *data, ld_error *error)
     return status;
 }
 
-// Counts the samples of each point, all of which are looked at; what is damaged stands in
+// Counts the samples of each point, all of which are checked; what is damaged stands in
 // data->damage.
 static ld_status count_samples(study_data *data, ld_error *error)
 {
@@ -278,7 +278,7 @@ static ld_status read_text(study_reader *self, const char *name, const char **te
         return status;
     if (!found)
         return ld_fail(error, LD_ERR_INPUT, "%s contains no study", self->store.path);
-    *text = keep(self, found);
+    *text = keep_text(self, found);
     return *text ? LD_OK : no_memory(error);
 }
 

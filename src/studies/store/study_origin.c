@@ -19,8 +19,8 @@ static char *copy_of(const char *text, size_t length)
 }
 
 // Takes one row; false: no memory.
-static bool take(ld_origin *origin, const char *kind, const char *name, const char *text,
-                 size_t length)
+static bool take_row(ld_origin *origin, const char *kind, const char *name, const char *text,
+                     size_t length)
 {
     char *own = copy_of(text, length);
     bool fine = own != NULL;
@@ -49,7 +49,7 @@ static ld_status read_rows(study_store *store, ld_origin *origin, ld_error *erro
         const char *name = (const char *)sqlite3_column_text(row, 1);
         const char *text = sqlite3_column_blob(row, 2);
         fine = kind && name &&
-               take(origin, kind, name, text ? text : "", (size_t)sqlite3_column_bytes(row, 2));
+               take_row(origin, kind, name, text ? text : "", (size_t)sqlite3_column_bytes(row, 2));
     }
     sqlite3_finalize(row);
     if (!fine)

@@ -76,6 +76,6 @@ void base_angles(const base_system *self, double t, const base_frame *tube, doub
 void base_find(const base_system *self, const base_found *found, const base_output *output,
                const double *state, base_instant *instant)
 {
-    if (self->kind->find)
-        self->kind->find(self, found, output, state, instant);
+    if (self->kind->fill_instant)
+        self->kind->fill_instant(self, found, output, state, instant);
 }

@@ -32,7 +32,7 @@ typedef struct base_interface base_interface;
 
 // What may act on a launcher from outside, by name.
 typedef struct base_inputs {
-    double motion[6]; // [m], [rad] x, y, z, yaw, pitch, roll of a base that goes where it is told
+    double motion[6]; // [m], [rad] x, y, z, yaw, pitch, roll of a base with a given motion
     double road[LD_MAX_WHEELS]; // [m] height under each wheel
     double command[HINGES];     // [rad]
     v3 force, moment;           // [N], [N m] on the chassis, in I, about its mass centre
@@ -60,20 +60,20 @@ typedef struct base_system {
     int displacement_count, extra_count; // unknowns of its linearised equations
 } base_system;
 
-// What a kind finds when it places the tube, and wants again in the same evaluation.
+// What a kind finds when it places the tube, and requires again in the same evaluation.
 typedef union base_found {
     orientating_motion vehicle;
     mechanism_motion multibody;
-    base_frame fmu; // that it tells
+    base_frame fmu; // that it reports
 } base_found;
 
-// What a mechanism and its wheels tell.
+// What a mechanism and its wheels report.
 typedef struct multibody_report {
     mechanism_output mechanism;
     marching_output marching;
 } multibody_report;
 
-// What a kind tells besides rates and works.
+// What a kind reports besides rates and works.
 typedef union base_report {
     vehicle_report vehicle;
     multibody_report multibody;
@@ -146,7 +146,7 @@ typedef struct base_output {
 
 // Bases with a motion of their own.
 typedef struct base_dynamics {
-    // Rates and what else is told. Other than 0: singular or not finite.
+    // Rates and what else is reported. Other than 0: singular or not finite.
     int (*evaluate)(const base_system *self, const base_found *found, const base_load *load,
                     const double *state, base_output *output);
     // [J], as found at that state
@@ -154,7 +154,7 @@ typedef struct base_dynamics {
     // Absolute tolerances of the states under the run's; where there is no relative one.
     void (*tolerances)(const base_system *self, double tolerance, double *atol, bool *absolute);
     // Gives it the velocity with which it starts.
-    void (*set_off)(const base_system *self, double *state);
+    void (*set_start_velocity)(const base_system *self, double *state);
 
     // Puts a state that drifts back to where its loops close.
     void (*project)(const base_system *self, double t, double *state);
@@ -171,7 +171,7 @@ typedef struct base_dynamics {
     ld_status (*check_rest)(const base_system *self, const base_found *found, const double *state,
                             ld_error *error);
     // Says that there is none, with the smallest residual found [m/s2].
-    ld_status (*no_rest)(double smallest, ld_error *error);
+    ld_status (*report_no_rest)(double smallest, ld_error *error);
 
     // Linearised: small displacements; where in the state their speeds are, and what has a rate
     // alone. What moves: a group's number and the inertia [kg, kg m2] of a displacement.
@@ -194,11 +194,11 @@ typedef struct base_stepping {
     // Where it stands at the run's start t [s] under this wrench, of a tube at rest on it, into the
     // state. It may be asked again with another wrench, before it goes; `moved`: by how much it
     // then stands elsewhere than before [m], [rad], infinity at first.
-    ld_status (*stand)(const base_system *self, double t, const base_wrench *on, double *state,
-                       double *moved, ld_error *error);
+    ld_status (*find_rest)(const base_system *self, double t, const base_wrench *on, double *state,
+                           double *moved, ld_error *error);
     // Goes from the instant t on to the next one, the wrench at t being this.
-    ld_status (*go)(const base_system *self, double t, const base_wrench *on, double *state,
-                    ld_error *error);
+    ld_status (*step_on)(const base_system *self, double t, const base_wrench *on, double *state,
+                         ld_error *error);
     // What it has besides its state, at t, as bytes, or from them into one that has not begun.
     ld_status (*archive)(const base_system *self, double t, archive *bytes, ld_error *error);
 } base_stepping;
@@ -211,28 +211,28 @@ struct base_interface {
     // NULL: there is none, all is shared.
     ld_status (*share)(base_system *self, ld_error *error);
     // Frame T at time t [s] and the base's state.
-    void (*place)(const base_system *self, double t, const double *state, base_frame *tube,
-                  base_found *found);
+    void (*find_frame)(const base_system *self, double t, const double *state, base_frame *tube,
+                       base_found *found);
     // Yaw, pitch, roll [rad] for output; NULL: those of T.
     void (*angles)(const base_system *self, double t, double angles[3]);
     // First and last time [s] that its table covers; NULL: all.
     void (*span)(const base_system *self, double *first, double *last);
     // The first instant [s] after t at which a step must end, and the equations change; NULL: none.
     double (*next_corner)(const base_system *self, double t);
-    // The first instant [s] after t at which it changes its state by itself, as a digital loop
+    // The first instant [s] after t at which it changes its state on its own, as a digital loop
     // does, infinity: none; what it makes of the state at such an instant. NULL: there are none. A
-    // base that is stepped goes on at them instead.
+    // base that is stepped continues at them instead.
     double (*next_sample)(const base_system *self, double t);
     void (*sample)(const base_system *self, double t, double *state);
-    const base_stepping *stepping; // NULL: its motion is part of the equations, or told
+    const base_stepping *stepping; // NULL: its motion is part of the equations, or reported
     // Takes frame T of the instant t [s], the present one, into the state; `first`: nothing of
-    // before goes on. NULL: nobody tells it.
-    void (*tell)(const base_system *self, double t, bool first, const base_frame *now,
-                 double *state);
+    // before continues. NULL: no one reports it.
+    void (*receive_frame)(const base_system *self, double t, bool first, const base_frame *now,
+                          double *state);
     // Columns of its own, which stand in the base_instant that `find` fills; NULL: none.
     const quantity_table *quantities;
-    void (*find)(const base_system *self, const base_found *found, const base_output *output,
-                 const double *state, base_instant *instant);
+    void (*fill_instant)(const base_system *self, const base_found *found,
+                         const base_output *output, const double *state, base_instant *instant);
     const base_dynamics *dynamics; // NULL: it has no motion of its own
     const quantity_table *inputs;  // which of the base_inputs it has; NULL: none
 };
@@ -254,7 +254,7 @@ void base_free_share(base_system *self);
 // First and last time [s] at which the base knows where it is.
 void base_span(const base_system *self, double *first, double *last);
 
-// Yaw, pitch, roll [rad] for output: of the base itself where it tells them, else of frame T.
+// Yaw, pitch, roll [rad] for output: of the base itself where it reports them, else of frame T.
 void base_angles(const base_system *self, double t, const base_frame *tube, double angles[3]);
 
 // What its quantities are at an instant, where it has any of its own.
@@ -262,7 +262,7 @@ void base_find(const base_system *self, const base_found *found, const base_outp
                const double *state, base_instant *instant);
 
 // The road under a vehicle of a run of its own (base_share) is this one, which outlives it.
-void base_ride_on(base_system *self, road *under);
+void base_set_road(base_system *self, road *under);
 
 // A base of kind vehicle; NULL: it is none.
 const vehicle_system *base_as_vehicle(const base_system *self);

@@ -4,7 +4,7 @@
 
 #include "systems/bases/base.h"
 
-// Those of the base_inputs that a base has which goes where it is told.
+// Those of the base_inputs that a base with a given motion has.
 extern const quantity_table base_motion_inputs;
 
 // Frame T of a base with these coordinates, x, y, z [m], yaw, pitch, roll [rad], their rates u and

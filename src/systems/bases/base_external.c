@@ -1,7 +1,7 @@
 // A base whose frame T comes from outside at instants, by whoever runs the launch; between them it
-// goes on as held_frame.h says.
+// continues as held_frame.h says.
 //
-// State, constant between the instants: what was told last, r, q_IT, v, w, with the accelerations
+// State, constant between the instants: what was given last, r, q_IT, v, w, with the accelerations
 // and the time of it. So it is saved and restored with the rest of the state.
 #include <string.h>
 
@@ -47,16 +47,16 @@ static held_frame held_in(const double *state)
     };
 }
 
-static void place(const base_system *self, double t, const double *state, base_frame *tube,
-                  base_found *found)
+static void find_frame(const base_system *self, double t, const double *state, base_frame *tube,
+                       base_found *found)
 {
     (void)self, (void)found;
     held_frame held = held_in(state);
     held_frame_at(&held, t - state[TOLD_T], tube);
 }
 
-static void tell(const base_system *self, double t, bool first, const base_frame *now,
-                 double *state)
+static void receive_frame(const base_system *self, double t, bool first, const base_frame *now,
+                          double *state)
 {
     held_frame held = {.a = v3_zero()};
     if (!first)
@@ -73,4 +73,4 @@ static void tell(const base_system *self, double t, bool first, const base_frame
 }
 
 const base_interface base_external = {
-    .build = build, .free = release, .place = place, .tell = tell};
+    .build = build, .free = release, .find_frame = find_frame, .receive_frame = receive_frame};

@@ -21,8 +21,8 @@ static void release(base_system *self)
     free(self->own);
 }
 
-static void place(const base_system *self, double t, const double *state, base_frame *tube,
-                  base_found *found)
+static void find_frame(const base_system *self, double t, const double *state, base_frame *tube,
+                       base_found *found)
 {
     (void)t, (void)state, (void)found;
     const base_frame *still = self->own;
@@ -43,6 +43,6 @@ static void angles(const base_system *self, double t, double angles[3])
 
 const base_interface base_fixed = {.build = build,
                                    .free = release,
-                                   .place = place,
+                                   .find_frame = find_frame,
                                    .angles = angles,
                                    .inputs = &base_motion_inputs};

@@ -1,11 +1,12 @@
 // A base that an FMU of other people's moves, under the wrench of the tube (foreign/foreign.h).
 //
-// The FMU tells a frame F, in which the tube is mounted, at instants t_k = t_0 + k step. At t_k it
-// is given the wrench on F's origin and goes on to t_k+1 before the launch does, so that the launch
-// knows F at both ends of the step: between them F's place goes by the cubic that has both places
-// and velocities, its attitude by that of the rotation vector against the first end (Hermite). So
-// the wrench alone is extrapolated: an FMU that holds its inputs is given the mean over the step
-// that the last two wrenches tell, W_k + (W_k - W_k-1)/2, whose error is of second order.
+// The FMU reports a frame F, in which the tube is mounted, at instants t_k = t_0 + k step. At t_k
+// it is given the wrench on F's origin and continues to t_k+1 before the launch does, so that the
+// launch knows F at both ends of the step: between them F's place goes by the cubic that has both
+// positions and velocities, its attitude by that of the rotation vector against the first end
+// (Hermite). So the wrench alone is extrapolated: an FMU that holds its inputs is given the mean
+// over the step that the last two wrenches report, W_k + (W_k - W_k-1)/2, whose error is of second
+// order.
 //
 // State, constant between the instants: F at both ends with their times, the last wrench, works.
 #include <math.h>
@@ -137,8 +138,8 @@ static double work_until(const double *state, const base_frame *F)
            v3_dot(v3_from(mean + 3), rv_log(m3_mul(F->A, m3_transpose(from.A))));
 }
 
-static void place(const base_system *base, double t, const double *state, base_frame *tube,
-                  base_found *found)
+static void find_frame(const base_system *base, double t, const double *state, base_frame *tube,
+                       base_found *found)
 {
     const fmu_base *self = base->own;
     base_frame F;
@@ -154,7 +155,7 @@ static void place(const base_system *base, double t, const double *state, base_f
     found->fmu = F;
 }
 
-// ---- what the FMU is told and tells
+// ---- what the FMU is reported and reports
 
 static ld_status not_finite(const fmu_base *self, double t, int i, double value, ld_error *error)
 {
@@ -162,7 +163,7 @@ static ld_status not_finite(const fmu_base *self, double t, int i, double value,
                    self->package->path, default_names[i], value, t);
 }
 
-// The frame that its numbers tell, [LD_FMU_FORCE] by quantity, in SI.
+// The frame that its numbers report, [LD_FMU_FORCE] by quantity, in SI.
 static ld_status take_frame(const fmu_base *self, double t, const double *number, double *frame,
                             ld_error *error)
 {
@@ -263,8 +264,8 @@ static ld_status begin(fmu_base *self, double t, ld_error *error)
     return status ? status : foreign_enter(self->instance, t, self->given->start_time, error);
 }
 
-static ld_status stand(const base_system *base, double t, const base_wrench *on, double *state,
-                       double *moved, ld_error *error)
+static ld_status find_rest(const base_system *base, double t, const base_wrench *on, double *state,
+                           double *moved, ld_error *error)
 {
     fmu_base *self = base->own;
     bool first = !self->instance;
@@ -305,8 +306,8 @@ static double next_instant(const base_system *base, double t)
     return next;
 }
 
-// What it is given for the coming step: the mean over it, or what it goes on from by itself. Keeps
-// both.
+// What it is given for the coming step: the mean over it, or what it continues from on its own.
+// Keeps both.
 static void choose_inputs(const fmu_base *self, const double wrench[WRENCH_SIZE], double *state,
                           double inputs[WRENCH_SIZE])
 {
@@ -319,14 +320,14 @@ static void choose_inputs(const fmu_base *self, const double wrench[WRENCH_SIZE]
     memcpy(last, wrench, WRENCH_SIZE * sizeof *last);
 }
 
-static ld_status leave(fmu_base *self, double t, ld_error *error)
+static ld_status leave_initialization(fmu_base *self, double t, ld_error *error)
 {
     ld_status status = self->going ? LD_OK : foreign_leave(self->instance, t, error);
     self->going = true;
     return status;
 }
 
-// The launcher rests on the place that the initialization mode told.
+// The launcher rests on the place that the initialization mode reported.
 static ld_status check_place(fmu_base *self, double t, const double *state, ld_error *error)
 {
     const double most = 1e-6; // [m], [rad]
@@ -350,8 +351,8 @@ static ld_status check_place(fmu_base *self, double t, const double *state, ld_e
                    self->package->path, moved);
 }
 
-static ld_status go(const base_system *base, double t, const base_wrench *on, double *state,
-                    ld_error *error)
+static ld_status step_on(const base_system *base, double t, const base_wrench *on, double *state,
+                         ld_error *error)
 {
     fmu_base *self = base->own;
     double told[LD_FMU_QUANTITIES], number[LD_FMU_FORCE], frame[FRAME_SIZE];
@@ -367,7 +368,7 @@ static ld_status go(const base_system *base, double t, const base_wrench *on, do
     step.t = self->given->start_time + (t - self->t_first);
     step.size = self->given->start_time + (next - self->t_first) - step.t;
     bool first = !self->going;
-    ld_status status = leave(self, t, error);
+    ld_status status = leave_initialization(self, t, error);
     if (!status && first)
         status = check_place(self, t, state, error);
     if (!status)
@@ -394,14 +395,15 @@ static ld_status archive_run(const base_system *base, double t, archive *bytes, 
     if (bytes->loading && !bytes->failed) {
         ld_status status = begin(self, t_first, error);
         if (!status)
-            status = leave(self, t_first, error);
+            status = leave_initialization(self, t_first, error);
         if (status)
             return status;
     }
     return foreign_archive(self->instance, t, bytes, error);
 }
 
-static const base_stepping stepping = {.stand = stand, .go = go, .archive = archive_run};
+static const base_stepping stepping = {
+    .find_rest = find_rest, .step_on = step_on, .archive = archive_run};
 
 // ---- columns
 
@@ -415,8 +417,8 @@ static const quantity_group quantity_groups[] = {
 };
 static const quantity_table quantities = {quantity_groups, 1};
 
-static void find(const base_system *base, const base_found *found, const base_output *output,
-                 const double *state, base_instant *instant)
+static void fill_instant(const base_system *base, const base_found *found,
+                         const base_output *output, const double *state, base_instant *instant)
 {
     (void)base, (void)output;
     instant->fmu.work = state[FMU_WORK] + work_until(state, &found->fmu);
@@ -425,8 +427,8 @@ static void find(const base_system *base, const base_found *found, const base_ou
 // ---- set-up
 
 // `by`: the key that names it; where it is not given, by default, it is the file that does not fit.
-static ld_status unknown(const fmu_base *self, const char *by, bool given, const char *name,
-                         foreign_causality causality, ld_error *error)
+static ld_status fail_unknown(const fmu_base *self, const char *by, bool given, const char *name,
+                              foreign_causality causality, ld_error *error)
 {
     const char *near = foreign_variable_near(&self->package->description, name, causality);
     return ld_fail(error, LD_ERR_INPUT, "%s: %.200s has no variable \"%.100s\"%s%s%s%.100s%s",
@@ -492,8 +494,8 @@ static ld_status connect(fmu_base *self, int i, const char *key, const char *nam
     const char *wanted = name ? name : default_names[i];
     const foreign_variable *variable = foreign_variable_find(&self->package->description, wanted);
     if (!variable)
-        return unknown(self, key, name != NULL, wanted,
-                       i >= LD_FMU_FORCE ? FOREIGN_INPUT : FOREIGN_OUTPUT, error);
+        return fail_unknown(self, key, name != NULL, wanted,
+                            i >= LD_FMU_FORCE ? FOREIGN_INPUT : FOREIGN_OUTPUT, error);
     ld_status status = check_variable(self, i, key, variable, error);
     self->variable[i] = (fmu_variable){
         .there = true,
@@ -562,7 +564,7 @@ static ld_status check_parameter(const fmu_base *self, int i, ld_error *error)
     const foreign_variable *variable =
         foreign_variable_find(&self->package->description, given->name);
     if (!variable)
-        return unknown(self, "base.parameters", true, given->name, FOREIGN_PARAMETER, error);
+        return fail_unknown(self, "base.parameters", true, given->name, FOREIGN_PARAMETER, error);
     if (text != isnan(given->value))
         return ld_fail(error, LD_ERR_INPUT,
                        "base.parameters.%d: %.200s: expected one of value and text", i + 1,
@@ -649,8 +651,8 @@ static ld_status share(base_system *base, ld_error *error)
 const base_interface base_fmu = {.build = build,
                                  .free = release,
                                  .share = share,
-                                 .place = place,
+                                 .find_frame = find_frame,
                                  .next_sample = next_instant,
                                  .stepping = &stepping,
                                  .quantities = &quantities,
-                                 .find = find};
+                                 .fill_instant = fill_instant};

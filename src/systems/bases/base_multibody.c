@@ -159,7 +159,7 @@ static void mount_wheels(const base_system *base, double *state)
     base_found found;
     if (!self->has_wheels)
         return;
-    base->kind->place(base, -self->model->run.lead_in, state, &tube, &found);
+    base->kind->find_frame(base, -self->model->run.lead_in, state, &tube, &found);
     const body_motion *body = &found.multibody.body[mechanism->wheels];
     base_frame chassis = {.r = body->r, .A = body->A};
     marching_place(&self->marching, &chassis, state + mechanism->state_count);
@@ -237,8 +237,8 @@ static ld_status share(base_system *base, ld_error *error)
 
 // ---- motion
 
-static void place(const base_system *self, double t, const double *state, base_frame *tube,
-                  base_found *found)
+static void find_frame(const base_system *self, double t, const double *state, base_frame *tube,
+                       base_found *found)
 {
     base_frame carrier = multibody_carrier(self, t);
     mechanism_move(mechanism_of(self), t, &carrier, state, &found->multibody);
@@ -382,7 +382,7 @@ static void project(const base_system *self, double t, double *state)
     mechanism_project(mechanism_of(self), &carrier, state);
 }
 
-static void set_off(const base_system *self, double *state)
+static void set_start_velocity(const base_system *self, double *state)
 {
     const multibody_base *own = self->own;
     const mechanism_system *mechanism = mechanism_of(self);
@@ -448,7 +448,7 @@ static void residual(const base_system *self, const base_output *output, double 
             *r++ = wheel[WHEEL_V + i];
 }
 
-static ld_status no_rest(double smallest, ld_error *error)
+static ld_status report_no_rest(double smallest, ld_error *error)
 {
     return ld_fail(
         error, LD_ERR_NUMERIC,
@@ -596,7 +596,7 @@ static const base_dynamics dynamics = {
     .evaluate = evaluate,
     .kinetic_energy = kinetic_energy,
     .tolerances = tolerances,
-    .set_off = set_off,
+    .set_start_velocity = set_start_velocity,
     .project = project,
     .part_of = part_of,
     .guess = guess,
@@ -604,7 +604,7 @@ static const base_dynamics dynamics = {
     .rest_of = rest_of,
     .residual = residual,
     .check_rest = check_rest,
-    .no_rest = no_rest,
+    .report_no_rest = report_no_rest,
     .displace_slightly = displace_slightly,
     .speed_of = speed_of,
     .quicken = quicken,
@@ -748,8 +748,8 @@ static void find_joints(const mechanism_system *self, const mechanism_motion *mo
     }
 }
 
-static void find(const base_system *base, const base_found *found, const base_output *output,
-                 const double *state, base_instant *instant)
+static void fill_instant(const base_system *base, const base_found *found,
+                         const base_output *output, const double *state, base_instant *instant)
 {
     const mechanism_system *self = mechanism_of(base);
     const ld_mechanism *given = self->given;
@@ -781,13 +781,13 @@ const base_interface base_multibody = {
     .build = build,
     .free = release,
     .share = share,
-    .place = place,
+    .find_frame = find_frame,
     .span = span,
     .next_corner = next_corner,
     .next_sample = next_sample,
     .sample = sample,
     .quantities = &quantities,
-    .find = find,
+    .fill_instant = fill_instant,
     .dynamics = &dynamics,
     .inputs = &inputs,
 };

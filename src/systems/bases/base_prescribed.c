@@ -29,8 +29,8 @@ static void coordinates(const base_system *base, double t, double x[6], double u
     }
 }
 
-static void place(const base_system *base, double t, const double *state, base_frame *frame,
-                  base_found *found)
+static void find_frame(const base_system *base, double t, const double *state, base_frame *frame,
+                       base_found *found)
 {
     (void)state, (void)found;
     const base_motion *self = base->own;
@@ -82,7 +82,7 @@ static void span(const base_system *base, double *first, double *last)
 
 const base_interface base_prescribed = {.build = build,
                                         .free = release,
-                                        .place = place,
+                                        .find_frame = find_frame,
                                         .angles = angles,
                                         .span = span,
                                         .inputs = &base_motion_inputs};

@@ -14,7 +14,7 @@ const vehicle_system *base_as_vehicle(const base_system *self)
     return self->kind == &base_vehicle ? self->own : NULL;
 }
 
-void base_ride_on(base_system *self, road *under)
+void base_set_road(base_system *self, road *under)
 {
     vehicle_system *vehicle = self->own;
     vehicle->marching.road = under;
@@ -135,8 +135,8 @@ static ld_status share(base_system *base, ld_error *error)
 
 // ---- motion
 
-static void place(const base_system *self, double t, const double *state, base_frame *tube,
-                  base_found *found)
+static void find_frame(const base_system *self, double t, const double *state, base_frame *tube,
+                       base_found *found)
 {
     orientating_motion_at(orientating_of(self), t, state, &found->vehicle);
     *tube = found->vehicle.tube;
@@ -263,7 +263,7 @@ static int part_of(const base_system *self, int state)
     return of_wheel ? wheel + 1 : 0;
 }
 
-static void set_off(const base_system *self, double *state)
+static void set_start_velocity(const base_system *self, double *state)
 {
     double speed = self->model->base.vehicle.speed;
     orientating_rest(orientating_of(self), state);
@@ -274,7 +274,7 @@ static void set_off(const base_system *self, double *state)
 
 // ---- equilibrium
 
-// Upright over its place at the start, each wheel with its share of the weight.
+// Upright over its position at the start, each wheel with its share of the weight.
 static void guess(const base_system *self, double tube, double rocket, double *state)
 {
     const orientating_system *orientating = orientating_of(self);
@@ -354,7 +354,7 @@ static void residual(const base_system *self, const base_output *output, double 
             *r++ = wheel[WHEEL_V + i];
 }
 
-static ld_status no_rest(double smallest, ld_error *error)
+static ld_status report_no_rest(double smallest, ld_error *error)
 {
     return ld_fail(
         error, LD_ERR_NUMERIC,
@@ -425,7 +425,7 @@ static const char *const groups[GROUPS] = {
     [WHEEL_ACROSS] = "wheels, across",
 };
 
-// Displacements: place and attitude of the chassis (the rotation in its own axes), hinge angles,
+// Displacements: position and attitude of the chassis (the rotation in its own axes), hinge angles,
 // wheel positions.
 static void displace_slightly(const base_system *self, int displacement, double change,
                               double *state)
@@ -514,14 +514,14 @@ static const base_dynamics dynamics = {
     .evaluate = evaluate,
     .kinetic_energy = kinetic_energy,
     .tolerances = tolerances,
-    .set_off = set_off,
+    .set_start_velocity = set_start_velocity,
     .part_of = part_of,
     .guess = guess,
     .displace = displace,
     .rest_of = rest_of,
     .residual = residual,
     .check_rest = check_rest,
-    .no_rest = no_rest,
+    .report_no_rest = report_no_rest,
     .displace_slightly = displace_slightly,
     .speed_of = speed_of,
     .extra_of = extra_of,
@@ -621,8 +621,8 @@ static const quantity_group input_groups[] = {
 };
 static const quantity_table inputs = {input_groups, sizeof input_groups / sizeof *input_groups};
 
-static void find(const base_system *base, const base_found *found, const base_output *output,
-                 const double *state, base_instant *instant)
+static void fill_instant(const base_system *base, const base_found *found,
+                         const base_output *output, const double *state, base_instant *instant)
 {
     const vehicle_system *self = base->own;
     vehicle_instant *now = &instant->vehicle;
@@ -639,12 +639,12 @@ const base_interface base_vehicle = {
     .build = build,
     .free = release,
     .share = share,
-    .place = place,
+    .find_frame = find_frame,
     .next_corner = next_corner,
     .next_sample = next_sample,
     .sample = sample,
     .quantities = &quantities,
-    .find = find,
+    .fill_instant = fill_instant,
     .dynamics = &dynamics,
     .inputs = &inputs,
 };

@@ -1,4 +1,4 @@
-// A motion that was measured, as a table over time: cubic splines through place and attitude.
+// A motion that was measured, as a table over time: cubic splines through position and attitude.
 #ifndef LD_SYSTEMS_MOTION_TABLE_H
 #define LD_SYSTEMS_MOTION_TABLE_H
 

@@ -18,7 +18,7 @@ typedef struct multibody_base {
     bool shared; // what is constant is another's
     atmosphere air;
     wind wind;
-    // its equilibrium under a tube as a dead load, near which the exact one is looked for
+    // its equilibrium under a tube as a dead load, near which the exact one is searched
     double *rest;
     int freedom_count; // displacements that are unknown there
     int freedom[MECHANISM_MOST_SPEEDS];

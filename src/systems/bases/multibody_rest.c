@@ -47,7 +47,7 @@ static void set_holds(const rest_problem *the, double *state)
     base_found found;
     for (int turn = 0; turn < 3; turn++) {
         bool moved = false;
-        the->base->kind->place(the->base, the->t, state, &tube, &found);
+        the->base->kind->find_frame(the->base, the->t, state, &tube, &found);
         for (int i = 0; i < mechanism->hold_count; i++) {
             const mechanism_hold *hold = &mechanism->hold[i];
             hinge_report report;
@@ -73,7 +73,7 @@ static int accelerations(const rest_problem *the, double *state, double *a)
     set_holds(the, state);
     base_frame carrier = multibody_carrier(the->base, the->t);
     mechanism_plant(the->mechanism, &carrier, state);
-    the->base->kind->place(the->base, the->t, state, &tube, &found);
+    the->base->kind->find_frame(the->base, the->t, state, &tube, &found);
     v3 down = m3_apply_transposed(tube.A, v3_make(0, -the->dead, 0));
     double half = 0.5 * the->own->model->tubes.length;
     base_load load = {

@@ -27,7 +27,7 @@ static m3 point_inertia(double mass, v3 c)
 }
 
 // A part with its mass centre c from the body's origin and its inertia J about c.
-static void gather(gathered_mass *all, double mass, v3 c, m3 J)
+static void add_mass(gathered_mass *all, double mass, v3 c, m3 J)
 {
     all->mass += mass;
     all->moment = v3_axpy(all->moment, mass, c);
@@ -43,14 +43,14 @@ static void gather_tube(gathered_mass *all, const ld_tubes *tubes, v3 at)
         double length = end - section->from, mass = section->mass_per_length * length;
         double across = mass * length * length / 12;
         v3 center = v3_add(at, v3_make(section->from + 0.5 * length, 0, 0));
-        gather(all, mass, center, m3_diagonal(section->polar_inertia * length, across, across));
+        add_mass(all, mass, center, m3_diagonal(section->polar_inertia * length, across, across));
     }
     for (int k = 0; k < tubes->point_mass_count; k++)
-        gather(all, tubes->point_mass[k].mass, v3_add(at, v3_make(tubes->point_mass[k].at, 0, 0)),
-               m3_diagonal(0, 0, 0));
+        add_mass(all, tubes->point_mass[k].mass, v3_add(at, v3_make(tubes->point_mass[k].at, 0, 0)),
+                 m3_diagonal(0, 0, 0));
     const double *J = tubes->tail.inertia;
-    gather(all, tubes->tail.mass, v3_add(at, v3_make(tubes->tail.center, 0, 0)),
-           m3_diagonal(J[0], J[1], J[2]));
+    add_mass(all, tubes->tail.mass, v3_add(at, v3_make(tubes->tail.center, 0, 0)),
+             m3_diagonal(J[0], J[1], J[2]));
 }
 
 v3 orientating_tube_place(const ld_layout *layout, int number)
@@ -84,8 +84,8 @@ static ld_status gather_elevation(gathered_mass *all, const ld_model *model, int
     const ld_turret *frame = &model->platform.elevation;
     const ld_tubes *tubes = &model->tubes;
     *all = (gathered_mass){0};
-    gather(all, frame->mass, v3_from(frame->center),
-           m3_diagonal(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
+    add_mass(all, frame->mass, v3_from(frame->center),
+             m3_diagonal(frame->inertia[0], frame->inertia[1], frame->inertia[2]));
     for (int number = 1; number <= tubes->layout.rows * tubes->layout.columns; number++) {
         v3 at = orientating_tube_place(&tubes->layout, number);
         if (number == launching)
@@ -100,7 +100,7 @@ static ld_status gather_elevation(gathered_mass *all, const ld_model *model, int
             return status;
         v3 c = v3_add(at, thruster.full.c);
         c.x += rocket->start_at;
-        gather(all, thruster.full.m, c, thruster.full.J);
+        add_mass(all, thruster.full.m, c, thruster.full.J);
         motor_free(&thruster);
     }
     return LD_OK;
@@ -120,7 +120,7 @@ static ld_mstmm_element chain_element(const char *name, const char *parent, doub
 }
 
 // Makes an element turn about an axis of the body that carries it.
-static void hang(ld_mstmm_element *element, const double at[3], v3 axis)
+static void attach_hinge(ld_mstmm_element *element, const double at[3], v3 axis)
 {
     element->hinge = LD_HINGE_REVOLUTE;
     v3_store(element->at, v3_from(at));
@@ -159,8 +159,8 @@ ld_status orientating_build(orientating_system *self, const ld_model *model, int
         chain_element("elevation platform", "azimuth platform", elevation.mass, center, inertia),
     };
     chain[CHASSIS].hinge = LD_HINGE_FREE;
-    hang(&chain[AZIMUTH], azimuth->hinge_at, v3_make(0, 1, 0));
-    hang(&chain[ELEVATION], given->elevation.hinge_at, v3_make(0, 0, 1));
+    attach_hinge(&chain[AZIMUTH], azimuth->hinge_at, v3_make(0, 1, 0));
+    attach_hinge(&chain[ELEVATION], given->elevation.hinge_at, v3_make(0, 0, 1));
     self->tube_at = orientating_tube_place(&model->tubes.layout, launching);
     self->elevation_mass = elevation.mass;
     self->elevation_center = center;

@@ -34,7 +34,7 @@ typedef struct vehicle_system {
     bool roads_of_another;
 } vehicle_system;
 
-// What an evaluation tells besides rates and works.
+// What an evaluation reports besides rates and works.
 typedef struct vehicle_report {
     hinge_report hinge[HINGES];
     marching_output marching;

@@ -68,7 +68,7 @@ typedef struct flight_numbers {
     } air;
     struct {
         double altitude, gravity, gm, j2, rotation, a, b, e2; // as in environment/earth.h
-        double watched; // [m] steps that end so low are looked at; -infinity: none is
+        double watched; // [m] steps that end so low are checked; -infinity: none is
     } earth;
     struct {
         double open, t0, area, slope; // 1: the rocket hangs below one; [m2] at t0 [s], [m2/s]
@@ -121,7 +121,7 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
 // `area` [m2] with the slope given [m2/s], or there at once where that is 0.
 void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
                  double slope);
-// Its value at t; 0 where the rocket flies by itself.
+// Its value at t; 0 where the rocket flies on its own.
 double flight_drag_area(const flight_phase *phase, double t);
 
 // Drag area of the air brakes [m2], `since` [s] the ignition, at the height [m] above the ground.

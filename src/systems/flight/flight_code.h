@@ -278,8 +278,8 @@ LD_INLINE real brakes(const flight_lanes *lanes, real t, real3 r, const real33 *
 }
 
 // What becomes of the rates where the rocket hangs below a parachute: those of a point.
-LD_INLINE void hang(const flight_lanes *lanes, real t, const flow *here, real mass, real3 gravity,
-                    const real *y, real *y_dot)
+LD_INLINE void hang_rates(const flight_lanes *lanes, real t, const flow *here, real mass,
+                          real3 gravity, const real *y, real *y_dot)
 {
     real_condition hangs = OF(parachute.open) != 0.0;
     if (!real_any(hangs))
@@ -362,7 +362,7 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     real3_store(y_dot + FLIGHT_W,
                 (real3){alpha.x, alpha.y - w_N.x * w_N.z, alpha.z + w_N.x * w_N.y});
     if (first->parachutes)
-        hang(lanes, t, &here, mass.mass, gravity, y, y_dot);
+        hang_rates(lanes, t, &here, mass.mass, gravity, y, y_dot);
 }
 
 LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const double *y,

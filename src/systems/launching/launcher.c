@@ -52,8 +52,8 @@ void launcher_select(launcher_system *self, int i)
 void launcher_place(const launcher_system *self, double t, const double *state,
                     launcher_input *input)
 {
-    self->base.kind->place(&self->base, t, state + self->base_at, &input->launching.base,
-                           &input->found);
+    self->base.kind->find_frame(&self->base, t, state + self->base_at, &input->launching.base,
+                                &input->found);
 }
 
 int launcher_evaluate_base(const launcher_system *self, const launcher_input *input,

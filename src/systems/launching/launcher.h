@@ -44,7 +44,7 @@ ld_status launcher_build(launcher_system *self, const ld_model *model, launching
                          ld_error *error);
 void launcher_free(launcher_system *self);
 
-// Makes *self the launcher of one run, which may go on beside others: it shares what does not
+// Makes *self the launcher of one run, which may continue beside others: it shares what does not
 // change with `of`, which must outlive it, and has a workspace, tube and rocket of its own.
 ld_status launcher_share(launcher_system *self, const launcher_system *of, ld_error *error);
 void launcher_free_share(launcher_system *self);

@@ -53,12 +53,12 @@ static int works_of(const ld_model *model)
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
-        bool apart =
+        bool planes_differ =
             key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
             key->offset == offsetof(ld_tubes, slot) ||
             key->offset == offsetof(ld_tubes, pressure) ||
             key->offset == offsetof(ld_tubes, guide) || key->offset == offsetof(ld_tubes, station);
-        if (!apart && !field_same(key, a, b))
+        if (!planes_differ && !field_same(key, a, b))
             return false;
     }
     return true;

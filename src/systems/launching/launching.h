@@ -28,7 +28,7 @@ typedef struct launching_system {
     tube_system tube; // with its tail
     support_set supports;
     adaptor_set adaptors;
-    surface_set surfaces; // of a guide that is no bore
+    surface_set surfaces; // of a guide that is not a bore
     slot_system slot;
     lock_system lock;
     crossflow_body crossflow;

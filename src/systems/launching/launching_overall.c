@@ -340,9 +340,9 @@ LD_OUTLINE bool jams_reduced(const launching_system *self, const launching_input
                              const launching_phase *phase, const double *state)
 {
     launching_output reduced;
-    launching_input apart = *input;
-    apart.record = NULL;
-    return launching_evaluate(self, &apart, phase, state, &reduced) == LAUNCHING_JAMMED;
+    launching_input planes_differ = *input;
+    planes_differ.record = NULL;
+    return launching_evaluate(self, &planes_differ, phase, state, &reduced) == LAUNCHING_JAMMED;
 }
 
 launching_outcome launching_evaluate_overall(const launching_system *self,

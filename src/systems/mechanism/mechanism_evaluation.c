@@ -164,7 +164,7 @@ static void note_loops(const mechanism_system *self, const mechanism_motion *mot
     output->elastic += loops_energy(chain);
 }
 
-// Springs and dampers that the tree's hinges have by themselves.
+// Springs and dampers that the tree's hinges have on their own.
 static void note_springs(const mechanism_system *self, const mechanism_motion *motion,
                          mechanism_output *output)
 {

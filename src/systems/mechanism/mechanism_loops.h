@@ -1,5 +1,5 @@
-// Closed loops of a mechanism: which of the tree's speeds the others follow, and the way back to
-// where all joints fit. Without loops every speed is independent, and nothing drifts.
+// Closed loops of a mechanism: which of the tree's speeds the others follow, and the return stroke
+// to where all joints fit. Without loops every speed is independent, and nothing drifts.
 #ifndef LD_SYSTEMS_MECHANISM_LOOPS_H
 #define LD_SYSTEMS_MECHANISM_LOOPS_H
 

@@ -22,7 +22,8 @@ void stabiliser_rest(const ld_stabiliser *given, double torque, double *drive)
 }
 
 // Torque that the loops ask for, within its limit; rate of their integral z.
-static double ask(const ld_stabiliser *given, double z, hinge_report *hinge, double *z_dot)
+static double commanded_torque(const ld_stabiliser *given, double z, hinge_report *hinge,
+                               double *z_dot)
 {
     const ld_cascade *cascade = &given->cascade;
     double rate_command = hinge->command_rate - given->feedforward * hinge->base_rate;
@@ -43,7 +44,7 @@ static double ask(const ld_stabiliser *given, double z, hinge_report *hinge, dou
 }
 
 // Rate of the torque of an actuator that is asked for another.
-static double follow(const ld_stabiliser *given, double torque, double asked)
+static double actuator_rate(const ld_stabiliser *given, double torque, double asked)
 {
     double rate = TWO_PI * given->bandwidth * (asked - torque);
     return given->slew > 0 && fabs(rate) > given->slew ? copysign(given->slew, rate) : rate;
@@ -67,12 +68,12 @@ void stabiliser_evaluate(const ld_stabiliser *given, bool linear, double z, cons
         hinge->limited = fabs(asked) >= given->torque_limit;
         *z_dot = 0;
     } else {
-        asked = ask(given, z, hinge, z_dot);
+        asked = commanded_torque(given, z, hinge, z_dot);
     }
     hinge->torque = asked;
     if (given->bandwidth > 0) {
         hinge->torque = drive[DRIVE_TORQUE];
-        drive_dot[DRIVE_TORQUE] = follow(given, hinge->torque, asked);
+        drive_dot[DRIVE_TORQUE] = actuator_rate(given, hinge->torque, asked);
     }
     if (given->gear.present) {
         double motor = hinge->torque, twist_rate = drive[DRIVE_RATE] - hinge->rate;
@@ -116,25 +117,25 @@ double stabiliser_next_sample(const ld_stabiliser *given, double t)
     return next;
 }
 
-// A value as a sensor tells it.
-static double sensed(double value, double noise, double resolution, double normal)
+// A value as a sensor reports it.
+static double measured_value(double value, double noise, double resolution, double normal)
 {
     double heard = value + noise * normal;
     return resolution > 0 ? resolution * nearbyint(heard / resolution) : heard;
 }
 
 // Angle and rate as sample k has them.
-static void sense(const ld_stabiliser *given, double k, uint64_t stream, hinge_report *hinge)
+static void take_sample(const ld_stabiliser *given, double k, uint64_t stream, hinge_report *hinge)
 {
     const ld_sensor_noise *noise = &given->noise;
     double normal[2], angle = hinge->measured;
     for (int i = 0; i < 2; i++)
         normal[i] = normal_quantile(
             random_uniform((uint64_t)noise->seed, stream, (uint64_t)(int64_t)k, (uint64_t)i, 0));
-    hinge->measured = sensed(angle, noise->angle, given->resolution.angle, normal[0]);
+    hinge->measured = measured_value(angle, noise->angle, given->resolution.angle, normal[0]);
     hinge->error -= hinge->measured - angle;
     hinge->measured_rate =
-        sensed(hinge->measured_rate, noise->rate, given->resolution.rate, normal[1]);
+        measured_value(hinge->measured_rate, noise->rate, given->resolution.rate, normal[1]);
 }
 
 void stabiliser_sample(const ld_stabiliser *given, double t, uint64_t stream,
@@ -147,8 +148,8 @@ void stabiliser_sample(const ld_stabiliser *given, double t, uint64_t stream,
     if (!samples)
         return;
     hinge_report heard = *hinge;
-    sense(given, k, stream, &heard);
-    drive[DRIVE_COMPUTED] = ask(given, *z, &heard, &z_dot);
+    take_sample(given, k, stream, &heard);
+    drive[DRIVE_COMPUTED] = commanded_torque(given, *z, &heard, &z_dot);
     if (given->delay == 0)
         drive[DRIVE_HELD] = drive[DRIVE_COMPUTED];
     *z += given->sample * z_dot;

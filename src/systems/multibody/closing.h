@@ -1,4 +1,4 @@
-// Loops closed: their forces at acceleration level, and projection of places and speeds.
+// Loops closed: their forces at acceleration level, and projection of positions and speeds.
 #ifndef LD_SYSTEMS_CLOSING_H
 #define LD_SYSTEMS_CLOSING_H
 

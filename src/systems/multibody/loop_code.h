@@ -1,6 +1,6 @@
 // The loops' part of the sweep (mstmm.md, closed loops), text of the sources that sweep_code.h is
 // the text of. A unit wrench g of a row goes from the sides of its joint towards the ground as
-// wrenches do: at every axis it has the share y = e . F, and F - V y goes on. With all y of two
+// wrenches do: at every axis it has the share y = e . F, and F - V y continues. With all y of two
 // rows r and s the response is S_rs = sum y_r y_s/D; without forces the row has the acceleration
 // sum y rate + sum F . bias + F_ground . base.
 

@@ -7,7 +7,7 @@
 // Fails with a sentence that names the joint.
 ld_status loops_check(const ld_mstmm_description *description, ld_error *error);
 
-// Ends of loops that stand on beams: each wants a section.
+// Ends of loops that stand on beams: each requires a section.
 int loops_sections(const ld_mstmm_description *description);
 
 // The loops of a system whose nodes are made, those for `sections` of its ends, from first_section

@@ -11,7 +11,7 @@
 
 // ---- memory
 
-// One array of the system; notes a failure.
+// One array of the system; records a failure.
 static void *array(size_t count, size_t size, bool *missing)
 {
     size_t bytes = (count + 1) * size;

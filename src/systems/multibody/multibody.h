@@ -44,7 +44,7 @@ typedef struct node_inertia {
     sym3 inertia;
 } node_inertia;
 
-// What a node that is no plain rigid body has besides.
+// What a node that is not a plain rigid body has besides.
 typedef struct node_beam {
     beam *body;
     int output;           // section: which

@@ -41,7 +41,7 @@ static spatial accelerate(ld_mstmm *system, int i, spatial x, const double *u_do
 }
 
 // Wrench about the origin that a rigid body needs for the acceleration x.
-static spatial needed(const node_inertia *body, m3 A, v3 w, spatial x)
+static spatial needed_wrench(const node_inertia *body, m3 A, v3 w, spatial x)
 {
     v3 mc = m3_apply(A, body->moment);
     sym3 J = sym3_turn(A, body->inertia);
@@ -90,8 +90,8 @@ static void carry(ld_mstmm *system, const double *u_dot, const double *wrench, d
         x[i] = accelerate(system, i, x[n->parent], u_dot);
         F[i] = (spatial){v3_zero(), v3_zero()};
         if (n->body == NODE_RIGID) {
-            F[i] = needed(&system->inertia[i], node_axes(system, i), v4d_v3(system->motion[i].w),
-                          x[i]);
+            F[i] = needed_wrench(&system->inertia[i], node_axes(system, i),
+                                 v4d_v3(system->motion[i].w), x[i]);
         } else if (n->body == NODE_BEAM) {
             m3 A_R = node_body_axes(system, i);
             F[i] = spatial_turn(
@@ -244,7 +244,7 @@ void ld_mstmm_momentum(ld_mstmm *system, const double *q, const double *u, doubl
     v3_store(angular, l);
 }
 
-// ---- places and rates
+// ---- positions and rates
 
 ld_mstmm_point ld_mstmm_locate(ld_mstmm *system, const double *q, const double *u, int element,
                                const double at[3])

@@ -215,7 +215,7 @@ static void turn_state(const overall *o, int i, m3 A)
 }
 
 // The state at node i's input, before its hinge.
-static ld_status enter(overall *o, int i, ld_error *error)
+static ld_status enter_node(overall *o, int i, ld_error *error)
 {
     ld_mstmm *s = o->system;
     const node *n = &s->node[i];
@@ -258,7 +258,7 @@ static ld_status enter(overall *o, int i, ld_error *error)
 }
 
 // A tip: no wrench beyond it. The ground's state serves as scratch.
-static ld_status leave(overall *o, int i, ld_error *error)
+static ld_status leave_node(overall *o, int i, ld_error *error)
 {
     transfer_matrix U;
     memcpy(state_of(o, 0), state_of(o, i), (size_t)(ROWS * o->width) * sizeof(double));
@@ -373,11 +373,11 @@ static ld_status transfer_all(overall *o, double *x, double *u_dot, ld_error *er
     ld_mstmm *s = o->system;
     ld_status status = LD_OK;
     for (int i = 1; !status && i <= s->node_count; i++) {
-        status = enter(o, i, error);
+        status = enter_node(o, i, error);
         if (!status)
             cross_hinge(o, i);
         if (!status && o->children_left[i] == 0)
-            status = leave(o, i, error);
+            status = leave_node(o, i, error);
     }
     if (!status)
         status = solve(o, x, error);

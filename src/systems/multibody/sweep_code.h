@@ -195,7 +195,7 @@ LD_INLINE int is_singular(double D, double all)
 
 // To the parent's origin: T^T Z T with T = [E, -~r; 0, E], T^T zf: B' = B - A ~r,
 // C' = C + W + W^T with W = ~r (B + B')/2.
-LD_INLINE void shift(share *s, const lanes_cycle *r)
+LD_INLINE void shift_share(share *s, const lanes_cycle *r)
 {
     const v4d half = v4d_all(0.5);
     const lanes_sym3 *A = &s->A;
@@ -249,7 +249,7 @@ LD_INLINE int pass_axis(const share *own, share *passing, axis_record *record,
     record->inverse = inverse[0];
     if (onward) {
         add_bias(&s, motion->bias_a, motion->bias_alpha, turns);
-        shift(&s, &r);
+        shift_share(&s, &r);
         release_axis(&s, U, V, rate);
         *passing = s;
     }
@@ -427,11 +427,11 @@ LD_OUTLINE int pass_otherwise(ld_mstmm *system, int i, const share *own, const d
         singular = eliminate_several(system, i, passing, tau);
     lanes_cycle r = lanes_cycle_of(motion->r);
     add_bias(passing, motion->bias_a, given ? motion->bias_alpha : v4d_all(0), given);
-    shift(passing, &r);
+    shift_share(passing, &r);
     return singular;
 }
 
-static int inwards(ld_mstmm *system, const double *tau, const double *wrench)
+static int sweep_inwards(ld_mstmm *system, const double *tau, const double *wrench)
 {
     share *passing = system->passing;
     clear_share(passing);
@@ -495,8 +495,8 @@ LD_INLINE v4d store_along(const v4d column[3], v4d a, double *u_dot)
     return v4d_combine(column, u_dot[0], u_dot[1], u_dot[2]);
 }
 
-// x: the parent's acceleration at this node's origin, with the bias. What goes on outwards is what
-// u_dot gives, to the last bit.
+// x: the parent's acceleration at this node's origin, with the bias. What continues outwards is
+// what u_dot gives, to the last bit.
 static spatial_lanes accelerate_several(const ld_mstmm *system, int i, spatial_lanes x,
                                         double *u_dot)
 {
@@ -546,7 +546,7 @@ static void accelerate_beam(const ld_mstmm *system, int i, spatial_lanes x, doub
     beam_accelerate(b->body, spatial_turn_back(node_body_axes(system, i), x_I), u_dot + b->modes_u);
 }
 
-static void outwards(ld_mstmm *system, double *u_dot)
+static void sweep_outwards(ld_mstmm *system, double *u_dot)
 {
     const spatial_lanes base = {v4d_from_v3(system->base.linear),
                                 v4d_from_v3(system->base.angular)};
@@ -586,4 +586,4 @@ static void outwards(ld_mstmm *system, double *u_dot)
 
 #include "systems/multibody/loop_code.h"
 
-const sweep SWEEP_NAME = {move, inwards, outwards, propagate, apply};
+const sweep SWEEP_NAME = {move, sweep_inwards, sweep_outwards, propagate, apply};

@@ -1,4 +1,4 @@
-#include "state/stepping/apart_steps.h"
+#include "state/stepping/partitioned_steps.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS + 1 };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
-typedef struct apart_steps {
+typedef struct partitioned_steps {
     integrated_steps launching;  // its integrator has the launching subsystem's states and works
     double state[LD_MAX_STATES]; // of the whole
     const vehicle_system *vehicle;
@@ -27,16 +27,16 @@ typedef struct apart_steps {
     int orientating_count, marching_count;
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
-} apart_steps;
+} partitioned_steps;
 
-static launch_state *launch_of(const apart_steps *self)
+static launch_state *launch_of(const partitioned_steps *self)
 {
     return self->launching.propagator.launch;
 }
 
 // ---- the subsystems' equations ----
 
-static void find_launching_input(const apart_steps *self, double t, const double *y,
+static void find_launching_input(const partitioned_steps *self, double t, const double *y,
                                  launching_input *input)
 {
     held_frame_at(&self->tube, t - self->t, &input->base);
@@ -45,7 +45,7 @@ static void find_launching_input(const apart_steps *self, double t, const double
 
 static int launching_rhs(double t, const double *y, double *y_dot, void *user)
 {
-    apart_steps *self = user;
+    partitioned_steps *self = user;
     launch_state *launch = launch_of(self);
     const launcher_system *launcher = &launch->launcher;
     launching_input input;
@@ -66,7 +66,7 @@ static int launching_rhs(double t, const double *y, double *y_dot, void *user)
 
 static int project_launching(double t, double *y, void *user)
 {
-    const apart_steps *self = user;
+    const partitioned_steps *self = user;
     launching_input input;
     find_launching_input(self, t, y, &input);
     launching_project(&launch_of(self)->launcher.launching, &input, &launch_of(self)->phase, y);
@@ -75,7 +75,7 @@ static int project_launching(double t, double *y, void *user)
 
 static int launching_events(double t, const double *y, double *g, void *user)
 {
-    apart_steps *self = user;
+    partitioned_steps *self = user;
     double unused[LD_MAX_STATES];
     if (launching_rhs(t, y, unused, user))
         return -1;
@@ -86,7 +86,7 @@ static int launching_events(double t, const double *y, double *g, void *user)
 
 static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
 {
-    apart_steps *self = user;
+    partitioned_steps *self = user;
     const launch_state *launch = launch_of(self);
     double tau = t - self->t;
     orientating_motion motion;
@@ -112,7 +112,7 @@ static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
 
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
 {
-    apart_steps *self = user;
+    partitioned_steps *self = user;
     const marching_system *marching = &self->vehicle->marching;
     marching_output out;
     base_frame chassis;
@@ -142,7 +142,7 @@ static void split_launching(const launcher_system *launcher, const double *y, do
 }
 
 // The orientating and marching parts of the whole state.
-static void split_base(const apart_steps *self, const double *y, double *orientating,
+static void split_base(const partitioned_steps *self, const double *y, double *orientating,
                        double *marching)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
@@ -155,8 +155,8 @@ static void split_base(const apart_steps *self, const double *y, double *orienta
         orientating[self->orientating_count - 1] = y[works + VEHICLE_JET];
 }
 
-static void join_base(const apart_steps *self, const double *orientating, const double *marching,
-                      double *y)
+static void join_base(const partitioned_steps *self, const double *orientating,
+                      const double *marching, double *y)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
     int works = launcher->work_at + launcher->launching.work_count;
@@ -169,7 +169,7 @@ static void join_base(const apart_steps *self, const double *orientating, const 
 }
 
 // The base's states at an instant between the last exchange and the next: cubic Hermite.
-static void base_between(const apart_steps *self, double t, double *y)
+static void base_between(const partitioned_steps *self, double t, double *y)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
     double h = self->t_next - self->t, x = h > 0 ? (t - self->t) / h : 0;
@@ -182,7 +182,7 @@ static void base_between(const apart_steps *self, double t, double *y)
 }
 
 // The whole state at time t within the launching subsystem's last step, whose state is `y`.
-static void join(const apart_steps *self, double t, const double *y, double *whole)
+static void join(const partitioned_steps *self, double t, const double *y, double *whole)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
     const launching_system *launching = &launcher->launching;
@@ -208,7 +208,7 @@ static ld_status go_to(integrator *part, double t_next, ld_error *error)
 }
 
 // Takes chassis and wheels from their part of the state y at the last exchange to the next.
-static ld_status take_base_on(apart_steps *self, const double *y, ld_error *error)
+static ld_status take_base_on(partitioned_steps *self, const double *y, ld_error *error)
 {
     double orientating[ORIENTATING_MOST], marching[MARCHING_MOST], rate[2][LD_MAX_STATES];
     memcpy(self->from, y, (size_t)launch_of(self)->launcher.state_count * sizeof(double));
@@ -236,20 +236,20 @@ static ld_status take_base_on(apart_steps *self, const double *y, ld_error *erro
 }
 
 // Instant of the next exchange, of those after t; the corners of commands at `t_stop` before it.
-static double next_exchange(apart_steps *self, double t, double t_stop)
+static double next_exchange(partitioned_steps *self, double t, double t_stop)
 {
     double step = model_run(launch_of(self)->model)->coupling_step;
     while (self->t_first + (double)self->exchanges * step <= t + 1e-9 * step)
         self->exchanges++;
     // a stop that the next exchange misses by rounding is that exchange: the accelerations that
-    // frames go on with would be noise over such a step
+    // frames continue with would be noise over such a step
     double next = self->t_first + (double)self->exchanges * step;
     return next > t_stop - 1e-9 * step ? t_stop : next;
 }
 
-// Exchange at t: frames and wrenches at the state y; then chassis and wheels go on to the next
+// Exchange at t: frames and wrenches at the state y; then chassis and wheels continue to the next
 // instant.
-static ld_status exchange(apart_steps *self, double t, const double *y, double t_stop,
+static ld_status exchange(partitioned_steps *self, double t, const double *y, double t_stop,
                           ld_error *error)
 {
     launch_state *launch = launch_of(self);
@@ -270,7 +270,7 @@ static ld_status exchange(apart_steps *self, double t, const double *y, double t
     return take_base_on(self, y, error);
 }
 
-static ld_status create_base(apart_steps *self, const integrator_settings *whole,
+static ld_status create_base(partitioned_steps *self, const integrator_settings *whole,
                              const tolerances *all, ld_error *error)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
@@ -308,17 +308,17 @@ static ld_status create_base(apart_steps *self, const integrator_settings *whole
 
 // ---- long steps ----
 
-// All goes on as now as if it were rigid: what carries the tube by its own rates, the tube with its
-// base, wheels and the like straight on beside it.
+// All continues as now as if it were rigid: what carries the tube by its own rates, the tube with
+// its base, wheels and the like straight on beside it.
 
-bool apart_steps_are_wanted(const launch_state *launch)
+bool partitioned_steps_apply(const launch_state *launch)
 {
     return base_as_vehicle(&launch->launcher.base) && model_run(launch->model)->coupling_step > 0;
 }
 
 static ld_status create(propagator *object, ld_error *error)
 {
-    apart_steps *self = (apart_steps *)object;
+    partitioned_steps *self = (partitioned_steps *)object;
     const launching_system *launching = &object->launch->launcher.launching;
     self->vehicle = base_as_vehicle(&object->launch->launcher.base);
     tolerances all;
@@ -339,7 +339,7 @@ static ld_status create(propagator *object, ld_error *error)
 
 static void release(propagator *object)
 {
-    const apart_steps *self = (const apart_steps *)object;
+    const partitioned_steps *self = (const partitioned_steps *)object;
     integrator_free(self->launching.integrator);
     integrator_free(self->orientating);
     integrator_free(self->marching);
@@ -349,7 +349,7 @@ static void release(propagator *object)
 
 static ld_status start(propagator *object, double t, const double *y, bool anew, ld_error *error)
 {
-    apart_steps *self = (apart_steps *)object;
+    partitioned_steps *self = (partitioned_steps *)object;
     const launcher_system *launcher = &object->launch->launcher;
     size_t size = (size_t)launcher->state_count * sizeof *y;
     double launching[LD_MAX_STATES];
@@ -368,7 +368,7 @@ static ld_status start(propagator *object, double t, const double *y, bool anew,
     return integrator_start(self->launching.integrator, t, launching, error);
 }
 
-static void join_state(apart_steps *self)
+static void join_state(partitioned_steps *self)
 {
     const integrator *launching = self->launching.integrator;
     join(self, integrator_time(launching), integrator_state(launching), self->state);
@@ -376,7 +376,7 @@ static void join_state(apart_steps *self)
 
 static integrator_outcome step(propagator *object, double t_stop, ld_error *error)
 {
-    apart_steps *self = (apart_steps *)object;
+    partitioned_steps *self = (partitioned_steps *)object;
     double t = integrated_time(object), launching[LD_MAX_STATES];
     if (t >= self->t_next) {
         if (exchange(self, t, self->state, t_stop, error))
@@ -394,25 +394,25 @@ static integrator_outcome step(propagator *object, double t_stop, ld_error *erro
 static integrator_outcome go_back(propagator *object, double t, ld_error *error)
 {
     integrator_outcome outcome = integrated_go_back(object, t, error);
-    join_state((apart_steps *)object);
+    join_state((partitioned_steps *)object);
     return outcome;
 }
 
 static const double *state(const propagator *object)
 {
-    return ((const apart_steps *)object)->state;
+    return ((const partitioned_steps *)object)->state;
 }
 
 static void interpolate(propagator *object, double t, double *y)
 {
     double launching[LD_MAX_STATES];
     integrated_interpolate(object, t, launching);
-    join((const apart_steps *)object, t, launching, y);
+    join((const partitioned_steps *)object, t, launching, y);
 }
 
 static int64_t most_steps(const propagator *object)
 {
-    const apart_steps *self = (const apart_steps *)object;
+    const partitioned_steps *self = (const partitioned_steps *)object;
     int64_t most = integrated_count(object);
     for (int i = 0; i < 2; i++) {
         int64_t steps = integrator_steps(i ? self->marching : self->orientating);
@@ -423,7 +423,7 @@ static int64_t most_steps(const propagator *object)
 
 static int64_t evaluations(const propagator *object)
 {
-    const apart_steps *self = (const apart_steps *)object;
+    const partitioned_steps *self = (const partitioned_steps *)object;
     return integrated_evaluations(object) + integrator_evaluations(self->orientating) +
            integrator_evaluations(self->marching);
 }
@@ -462,7 +462,7 @@ static void archive_wrench(archive *bytes, held_wrench *held)
 
 static void archive_all(propagator *object, archive *bytes)
 {
-    apart_steps *self = (apart_steps *)object;
+    partitioned_steps *self = (partitioned_steps *)object;
     const launch_state *launch = object->launch;
     integrator_archive(self->launching.integrator, bytes);
     archive_expect(bytes, false); // no long steps
@@ -485,8 +485,8 @@ static void archive_all(propagator *object, archive *bytes)
         archive_doubles(bytes, states[i], (size_t)launch->launcher.state_count);
 }
 
-const stepper apart_stepper = {
-    .size = sizeof(apart_steps),
+const stepper partitioned_stepper = {
+    .size = sizeof(partitioned_steps),
     .create = create,
     .release = release,
     .start = start,

@@ -6,8 +6,8 @@
 #include "state/stepping/stepper.h"
 
 // Whether a launch asks for that.
-bool apart_steps_are_wanted(const launch_state *launch);
+bool partitioned_steps_apply(const launch_state *launch);
 
-extern const stepper apart_stepper;
+extern const stepper partitioned_stepper;
 
 #endif

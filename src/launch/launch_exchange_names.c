@@ -1,10 +1,10 @@
 // What the states and the events of a launch are called where steps are taken outside.
-#include "launch/launch_outside_names.h"
+#include "launch/launch_exchange_names.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "launch/launch_outside.h"
+#include "launch/launch_exchange.h"
 #include "launch/launch_run.h"
 #include "model/parts.h"
 
@@ -15,11 +15,11 @@ typedef struct named_states {
     const char *unit, *rate_unit, *description;
 } named_states;
 
-static outside_quantity LD_PRINTF(4, 5)
+static exchange_quantity LD_PRINTF(4, 5)
     quantity_as(const char *unit, const char *rate_unit, const char *description,
                 const char *format, ...)
 {
-    outside_quantity made = {.unit = unit, .rate_unit = rate_unit, .description = description};
+    exchange_quantity made = {.unit = unit, .rate_unit = rate_unit, .description = description};
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(made.name, sizeof made.name, format, arguments);
@@ -39,7 +39,7 @@ static int part_at(const char *parts, int i, const char **part)
     return length;
 }
 
-static outside_quantity name_state(const named_states *group, int i)
+static exchange_quantity name_state(const named_states *group, int i)
 {
     if (!group->parts)
         return quantity_as(group->unit, group->rate_unit, group->description, "%s%d", group->first,
@@ -58,7 +58,7 @@ static outside_quantity name_state(const named_states *group, int i)
 #define PART_NAME(place, name, is) [place] = {name, is},
 #define ROLLING_NAME(place, name, is) [(int)MECHANISM_POWERS + (place)] = {name, is},
 
-static outside_quantity name_work(const launcher_system *launcher, int i)
+static exchange_quantity name_work(const launcher_system *launcher, int i)
 {
     typedef struct named_work {
         const char *name, *is;
@@ -77,7 +77,7 @@ static outside_quantity name_work(const launcher_system *launcher, int i)
     return quantity_as("J", "W", work[place].is, "work.%s", work[place].name);
 }
 
-outside_quantity launch_outside_state(const ld_run *run, int i)
+exchange_quantity launch_exchange_state(const ld_run *run, int i)
 {
     static const char xyz[] = "x|y|z";
     const launcher_system *launcher = &run->launch.launcher;
@@ -101,7 +101,7 @@ outside_quantity launch_outside_state(const ld_run *run, int i)
         {at->V + 3, 3, "rocket.rate.", xyz, "rad/s", "rad/s2",
          "Angular velocity of the rocket, in R"},
     };
-    if (i >= launcher->base_at && base->kind->tell) // those are none
+    if (i >= launcher->base_at && base->kind->receive_frame) // those are none
         i += base->state_count;
     if (i >= launcher->work_at)
         return name_work(launcher, i - launcher->work_at);
@@ -112,7 +112,7 @@ outside_quantity launch_outside_state(const ld_run *run, int i)
                        i - launcher->base_at + 1);
 }
 
-outside_quantity launch_outside_indicator(const ld_run *run, int i)
+exchange_quantity launch_exchange_indicator(const ld_run *run, int i)
 {
     const event *one = &propagator_events(run->propagator)->event[i];
     int surfaces = run->launch.launcher.launching.surfaces.count, index = one->index;

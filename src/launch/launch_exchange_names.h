@@ -7,14 +7,14 @@
 enum { OUTSIDE_NAME_SIZE = 64 };
 
 // A state or what goes through zero at an event, as an importer sees it.
-typedef struct outside_quantity {
+typedef struct exchange_quantity {
     char name[OUTSIDE_NAME_SIZE]; // "tube.position.x"; "exit.1"
-    const char *unit;             // SI; "": none, or not told
+    const char *unit;             // SI; "": none, or not reported
     const char *rate_unit;        // of a state
     const char *description;
-} outside_quantity;
+} exchange_quantity;
 
-outside_quantity launch_outside_state(const ld_run *run, int i);
-outside_quantity launch_outside_indicator(const ld_run *run, int i);
+exchange_quantity launch_exchange_state(const ld_run *run, int i);
+exchange_quantity launch_exchange_indicator(const ld_run *run, int i);
 
 #endif

@@ -1,4 +1,4 @@
-#include "state/stepping/outside_steps.h"
+#include "state/stepping/importer_steps.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,26 +7,26 @@
 #include "state/stepping/stepper.h"
 #include "state/stepping/tolerances.h"
 
-typedef struct outside_point {
+typedef struct exchange_point {
     double t; // [s]
     double y[LD_MAX_STATES], rate[LD_MAX_STATES];
-} outside_point;
+} exchange_point;
 
 // The point where the integrator is, the last one that counts as a step's end, and what has gone
 // through zero between the two.
-typedef struct outside_steps {
+typedef struct importer_steps {
     propagator propagator;
     int states, events;
-    outside_point last, now;    // the rates of `now` once a step ends there
+    exchange_point last, now;   // the rates of `now` once a step ends there
     bool accepted;              // one does
     double value[EVENTS_MOST];  // of the events, at `last`
     int direction[EVENTS_MOST]; // in which each goes through zero up to `now`, 0: it does not
     int64_t steps, evaluations;
-} outside_steps;
+} importer_steps;
 
 void propagator_place(propagator *object, double t, const double *y)
 {
-    outside_steps *self = (outside_steps *)object;
+    importer_steps *self = (importer_steps *)object;
     size_t size = (size_t)self->states * sizeof *y;
     if (t == self->now.t && memcmp((const char *)y, (const char *)self->now.y, size) == 0)
         return;
@@ -37,14 +37,14 @@ void propagator_place(propagator *object, double t, const double *y)
 
 bool propagator_has_accepted(const propagator *object)
 {
-    return ((const outside_steps *)object)->accepted;
+    return ((const importer_steps *)object)->accepted;
 }
 
 // Rates [states] and values of the events there.
-static ld_status find_there(outside_steps *self, double *value, ld_error *error)
+static ld_status find_there(importer_steps *self, double *value, ld_error *error)
 {
     launch_state *launch = self->propagator.launch;
-    outside_point *now = &self->now;
+    exchange_point *now = &self->now;
     bool known = simulation_is_latest(launch, now->t, now->y);
     if (known)
         launcher_rates(&launch->launcher, now->y, &launch->latest.out, launch->phase.rocket,
@@ -66,7 +66,7 @@ static int direction_of(double before, double now)
 
 ld_status propagator_accept(propagator *object, bool *crossed, ld_error *error)
 {
-    outside_steps *self = (outside_steps *)object;
+    importer_steps *self = (importer_steps *)object;
     double value[EVENTS_MOST];
     ld_status status = find_there(self, value, error);
     *crossed = false;
@@ -81,9 +81,9 @@ ld_status propagator_accept(propagator *object, bool *crossed, ld_error *error)
     return LD_OK;
 }
 
-ld_status propagator_go_on(propagator *object, ld_error *error)
+ld_status propagator_continue(propagator *object, ld_error *error)
 {
-    outside_steps *self = (outside_steps *)object;
+    importer_steps *self = (importer_steps *)object;
     double value[EVENTS_MOST];
     ld_status status = find_there(self, value, error);
     if (status)
@@ -97,9 +97,9 @@ ld_status propagator_go_on(propagator *object, ld_error *error)
 
 bool propagator_project(propagator *object, double *y)
 {
-    const outside_steps *self = (const outside_steps *)object;
+    const importer_steps *self = (const importer_steps *)object;
     const launch_state *launch = object->launch;
-    const outside_point *now = &self->now;
+    const exchange_point *now = &self->now;
     tolerances all;
     memcpy(y, now->y, (size_t)self->states * sizeof *y);
     if (!launch->launcher.base.drifts && !launching_holds_places(&launch->launcher.launching))
@@ -114,7 +114,7 @@ bool propagator_project(propagator *object, double *y)
 
 static ld_status create(propagator *object, ld_error *error)
 {
-    outside_steps *self = (outside_steps *)object;
+    importer_steps *self = (importer_steps *)object;
     (void)error;
     self->states = object->launch->launcher.state_count;
     self->events = object->events.count;
@@ -130,29 +130,29 @@ static ld_status start(propagator *object, double t, const double *y, bool anew,
 {
     (void)anew;
     propagator_place(object, t, y);
-    return propagator_go_on(object, error);
+    return propagator_continue(object, error);
 }
 
 static double time_now(const propagator *object)
 {
-    return ((const outside_steps *)object)->now.t;
+    return ((const importer_steps *)object)->now.t;
 }
 
 static double previous_time(const propagator *object)
 {
-    return ((const outside_steps *)object)->last.t;
+    return ((const importer_steps *)object)->last.t;
 }
 
 static const double *state(const propagator *object)
 {
-    return ((const outside_steps *)object)->now.y;
+    return ((const importer_steps *)object)->now.y;
 }
 
 // Cubic Hermite interpolation between the two points.
 static void interpolate(propagator *object, double t, double *y)
 {
-    const outside_steps *self = (const outside_steps *)object;
-    const outside_point *from = &self->last, *to = &self->now;
+    const importer_steps *self = (const importer_steps *)object;
+    const exchange_point *from = &self->last, *to = &self->now;
     double h = to->t - from->t, x = h > 0 ? (t - from->t) / h : 1;
     double a = (1 + 2 * x) * (1 - x) * (1 - x), b = x * (1 - x) * (1 - x) * h;
     double c = x * x * (3 - 2 * x), d = -x * x * (1 - x) * h;
@@ -163,20 +163,20 @@ static void interpolate(propagator *object, double t, double *y)
 
 static int direction(const propagator *object, int i)
 {
-    return ((const outside_steps *)object)->direction[i];
+    return ((const importer_steps *)object)->direction[i];
 }
 
 static int64_t count(const propagator *object)
 {
-    return ((const outside_steps *)object)->steps;
+    return ((const importer_steps *)object)->steps;
 }
 
 static int64_t evaluations(const propagator *object)
 {
-    return ((const outside_steps *)object)->evaluations;
+    return ((const importer_steps *)object)->evaluations;
 }
 
-static void archive_point(outside_point *point, int states, archive *bytes)
+static void archive_point(exchange_point *point, int states, archive *bytes)
 {
     archive_double(bytes, &point->t);
     archive_doubles(bytes, point->y, (size_t)states);
@@ -185,7 +185,7 @@ static void archive_point(outside_point *point, int states, archive *bytes)
 
 static void archive_all(propagator *object, archive *bytes)
 {
-    outside_steps *self = (outside_steps *)object;
+    importer_steps *self = (importer_steps *)object;
     archive_point(&self->last, self->states, bytes);
     archive_point(&self->now, self->states, bytes);
     archive_bool(bytes, &self->accepted);
@@ -196,8 +196,8 @@ static void archive_all(propagator *object, archive *bytes)
     archive_count(bytes, &self->evaluations);
 }
 
-const stepper outside_stepper = {
-    .size = sizeof(outside_steps),
+const stepper importer_stepper = {
+    .size = sizeof(importer_steps),
     .create = create,
     .release = release,
     .start = start,
