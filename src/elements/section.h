@@ -162,16 +162,17 @@ LD_INLINE void add_by_power(const int lanes, const packed_shapes *shapes, const 
                            v4d_all(weight[2]) * p2[i] + v4d_all(weight[3]) * p3[i];
 }
 
-// Adds force f on the tube's section s with moment m about R's origin, of which the modes feel the
+// Adds force and moment about R's origin on the tube's section s, of which the modes feel the
 // moment about the section's root, mu = Jl^T m_root.
 LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const axis_section *s,
-                                 v3 f, v3 m, v3 mu, tube_force *h)
+                                 guide_wrench on, v3 mu, tube_force *h)
 {
     const packed_element *element = &self->packed[s->index];
+    v3 f = on.f;
     h->f = v3_add(h->f, f);
-    h->m = v3_add(h->m, m);
+    h->m = v3_add(h->m, on.m);
     if (__builtin_expect(h->record != NULL, 0))
-        guide_forces_add(h->record, s->x, f, m);
+        guide_forces_add(h->record, s->x, f, on.m);
     double xi = s->xi, x2 = xi * xi, x3 = x2 * xi;
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};
@@ -189,7 +190,7 @@ LD_INLINE void apply_at_section(const int lanes, const tube_system *self, const 
                                 v3 W, v3 f, tube_force *h)
 {
     v3 mu = m3_apply_transposed(s->Jl, v3_cross(v3_sub(W, s->root), f));
-    apply_generalised(lanes, self, s, f, v3_cross(W, f), mu, h);
+    apply_generalised(lanes, self, s, (guide_wrench){f, v3_cross(W, f)}, mu, h);
 }
 
 // Adds force f on the tube's section s with moment m about its point P (in R).
@@ -197,7 +198,7 @@ LD_INLINE void apply_wrench_at_section(const int lanes, const tube_system *self,
                                        const axis_section *s, v3 f, v3 m, tube_force *h)
 {
     v3 mu = m3_apply_transposed(s->Jl, v3_add(m, v3_cross(v3_sub(s->P, s->root), f)));
-    apply_generalised(lanes, self, s, f, v3_add(m, v3_cross(s->P, f)), mu, h);
+    apply_generalised(lanes, self, s, (guide_wrench){f, v3_add(m, v3_cross(s->P, f))}, mu, h);
 }
 
 // A plane's shapes at a section for every mode, and their products.

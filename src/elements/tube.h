@@ -325,19 +325,26 @@ LD_INLINE double tube_product(const tube_state *tube, const double x[6], const d
            x[4] * y[4] * tube->per_dy + x[5] * y[5] * tube->per_dz;
 }
 
-// L^-T D^-1 of a forward-substituted vector: translational and rotational acceleration.
-LD_INLINE void tube_backward(const tube_state *tube, const double x[6], v3 *a, v3 *w_dot)
+// Acceleration of the tube's frame: inertial of R's origin, derivative of w, in R.
+typedef struct frame_acceleration {
+    v3 a, w_dot;
+} frame_acceleration;
+
+// L^-T D^-1 of a forward-substituted vector.
+LD_INLINE frame_acceleration tube_backward(const tube_state *tube, const double x[6])
 {
+    frame_acceleration frame;
     double wz = x[5] * tube->per_dz;
     double wy = x[4] * tube->per_dy - tube->l_zwy * wz;
-    *a = v3_make(x[0] * tube->per_m - tube->l_yx * wy - tube->l_zx * wz,
-                 x[1] * tube->per_my - tube->l_zy * wz, x[2] * tube->per_my - tube->l_yz * wy);
-    *w_dot = v3_make(x[3] * tube->per_jx, wy, wz);
+    frame.a = v3_make(x[0] * tube->per_m - tube->l_yx * wy - tube->l_zx * wz,
+                      x[1] * tube->per_my - tube->l_zy * wz, x[2] * tube->per_my - tube->l_yz * wy);
+    frame.w_dot = v3_make(x[3] * tube->per_jx, wy, wz);
     if (__builtin_expect(tube->modal.planes_differ, 0)) {
-        w_dot->x -= tube->l_ywx * wy + tube->l_zwx * wz;
-        a->y -= tube->l_xy * w_dot->x;
-        a->z = x[2] * tube->per_mz - tube->l_yz * wy - tube->l_xz * w_dot->x;
+        frame.w_dot.x -= tube->l_ywx * wy + tube->l_zwx * wz;
+        frame.a.y -= tube->l_xy * frame.w_dot.x;
+        frame.a.z = x[2] * tube->per_mz - tube->l_yz * wy - tube->l_xz * frame.w_dot.x;
     }
+    return frame;
 }
 
 // C h_q: what the modal forces put on the rigid equations.
@@ -355,14 +362,22 @@ LD_INLINE void tube_condense(const int lanes, const tube_system *self, const tub
                  -v4d_dot(lanes, of_z[c], h->z), v4d_dot(lanes, of_y[c], h->y));
 }
 
-// q_ddot = h_q - B_q - C^T (a, w_dot), with B_q of the constraint force and moment at the section.
+// What acts on the modes through a section: the opposite of a force and of a moment, Jl^T m.
+typedef struct section_reaction {
+    const section_shapes *shapes;
+    v3 force, mu;
+} section_reaction;
+
+// q_ddot = h_q - B_q - C^T (a, w_dot), with B_q of the reaction at a section; NULL: none.
 LD_INLINE void tube_modal_accelerations(const int lanes, const tube_system *self,
-                                        const tube_state *tube, const section_shapes *shapes,
-                                        const tube_force *h, v3 force, v3 mu, v3 a, v3 w_dot,
+                                        const launching_instant *now,
+                                        const section_reaction *reaction, frame_acceleration frame,
                                         double *q_ddot)
 {
     int ct = self->ct, c = self->c, nb = self->flexible.nb;
-    const modal_state *q = &tube->modal;
+    const modal_state *q = &now->tube.modal;
+    const tube_force *h = &now->on_tube;
+    v3 a = frame.a, w_dot = frame.w_dot;
     v4d y[LD_NB / 4], z[LD_NB / 4];
     const v4d *hy = v4d_lanes_of(h->y), *hz = v4d_lanes_of(h->z);
     const v4d *z_y = v4d_lanes_of(z_on_y(q)), *y_z = v4d_lanes_of(y_on_z(q));
@@ -375,27 +390,29 @@ LD_INLINE void tube_modal_accelerations(const int lanes, const tube_system *self
             hy[i] - v4d_all(a.y) * ct_y[i] + v4d_all(w_dot.x) * z_y[i] - v4d_all(w_dot.z) * c_y[i];
         z[i] =
             hz[i] - v4d_all(a.z) * ct_z[i] - v4d_all(w_dot.x) * y_z[i] + v4d_all(w_dot.y) * c_z[i];
-        if (shapes) {
+        if (reaction) {
+            const section_shapes *shapes = reaction->shapes;
             const plane_shapes *of_y = &shapes->plane[PLANE_Y], *of_z = &shapes->plane[shapes->z];
-            y[i] -= v4d_all(force.y) * v4d_lanes_of(of_y->b)[i] +
-                    v4d_all(mu.z) * v4d_lanes_of(of_y->b1)[i];
-            z[i] -= v4d_all(force.z) * v4d_lanes_of(of_z->b)[i] -
-                    v4d_all(mu.y) * v4d_lanes_of(of_z->b1)[i];
+            y[i] -= v4d_all(reaction->force.y) * v4d_lanes_of(of_y->b)[i] +
+                    v4d_all(reaction->mu.z) * v4d_lanes_of(of_y->b1)[i];
+            z[i] -= v4d_all(reaction->force.z) * v4d_lanes_of(of_z->b)[i] -
+                    v4d_all(reaction->mu.y) * v4d_lanes_of(of_z->b1)[i];
         }
     }
     memcpy(q_ddot, y, (size_t)nb * sizeof(double));
     memcpy(q_ddot + nb, z, (size_t)nb * sizeof(double));
     for (int j = 0; j < self->flexible.nt; j++)
-        q_ddot[2 * nb + j] =
-            h->t[j] - self->flexible.cp[j] * w_dot.x - (shapes ? shapes->tau[j] * mu.x : 0);
+        q_ddot[2 * nb + j] = h->t[j] - self->flexible.cp[j] * w_dot.x -
+                             (reaction ? reaction->shapes->tau[j] * reaction->mu.x : 0);
 }
 
-// Takes what the opposite of a force and of a moment (Jl^T m) on one more section does to the modes
-// from their accelerations.
-LD_INLINE void react_on_modes(const tube_system *self, const section_shapes *shapes, v3 force,
-                              v3 mu, double *q_ddot)
+// Adds what the reaction at one more section does to the modes.
+LD_INLINE void react_on_modes(const tube_system *self, const section_reaction *reaction,
+                              double *q_ddot)
 {
     int nb = self->flexible.nb;
+    const section_shapes *shapes = reaction->shapes;
+    v3 force = reaction->force, mu = reaction->mu;
     const plane_shapes *of_y = &shapes->plane[PLANE_Y], *of_z = &shapes->plane[shapes->z];
     for (int j = 0; j < nb; j++) {
         q_ddot[j] -= force.y * of_y->b[j] + mu.z * of_y->b1[j];

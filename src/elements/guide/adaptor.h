@@ -21,6 +21,7 @@ typedef struct adaptor_set {
 
 // One adaptor's foot and offset from the axis, in the section's frame.
 typedef struct adaptor_state {
+    int number;
     element_motion own_motion;
     axis_section
         own_section; // foot of the adaptors but the rear one, whose foot is the rocket's section
@@ -30,6 +31,7 @@ typedef struct adaptor_state {
     v3 arm;    // from O1, in R
     v3 C;      // centre, in R
     v3 offset; // C - P(foot), in R
+    v3 v_C;    // inertial velocity of the centre, in R
     double y, z, y_dot, z_dot;
 } adaptor_state;
 
@@ -38,6 +40,7 @@ LD_INLINE void adaptor_load(const adaptor_set *self, const tube_system *guide,
                             const tube_state *tube, const rocket_state *rocket, int i,
                             adaptor_state *adaptor)
 {
+    adaptor->number = i;
     adaptor->arm = v3_scale(self->at[i], m3_column(rocket->A_RB, 0));
     adaptor->C = v3_add(rocket->p1, adaptor->arm);
     if (i == 0) {
@@ -55,11 +58,12 @@ LD_INLINE void adaptor_load(const adaptor_set *self, const tube_system *guide,
     adaptor->z = v3_dot(m3_column(foot->A, 2), adaptor->offset);
 }
 
-// Rates of the offset, the foot's motion included; v_C: inertial velocity of the centre, in R.
-LD_INLINE void adaptor_rates(const tube_state *tube, const rocket_state *rocket, int i, v3 v_C,
+// Velocity of the centre and rates of the offset, the foot's motion included.
+LD_INLINE void adaptor_rates(const tube_state *tube, const rocket_state *rocket,
                              adaptor_state *adaptor)
 {
-    if (i == 0) {
+    adaptor->v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, adaptor->arm));
+    if (adaptor->number == 0) {
         adaptor->rates = &rocket->rates;
         adaptor->y_dot = rocket->y_dot;
         adaptor->z_dot = rocket->z_dot;
@@ -71,7 +75,7 @@ LD_INLINE void adaptor_rates(const tube_state *tube, const rocket_state *rocket,
     adaptor->rates = rates;
     v3 axis = m3_column(foot->A, 0);
     v3 column = v3_add(foot->t, v3_cross(m3_apply(foot->Jl, foot->k0), adaptor->offset));
-    v3 slip = v3_sub(v_C, v3_add(tube->v, v3_cross(tube->w, adaptor->C)));
+    v3 slip = v3_sub(adaptor->v_C, v3_add(tube->v, v3_cross(tube->w, adaptor->C)));
     slip = v3_sub(slip, v3_add(rates->u_dot, v3_cross(rates->w, adaptor->offset)));
     slip = v3_axpy(slip, -v3_dot(axis, slip) / v3_dot(axis, column), column);
     adaptor->y_dot = v3_dot(m3_column(foot->A, 1), slip);
@@ -89,23 +93,25 @@ LD_INLINE v3 adaptor_wall_velocity(const tube_state *tube, const adaptor_state *
 
 // Spring and damper that hold the adaptor on the axis, at its centre.
 LD_INLINE v3 bilateral_force(const contact_law *law, const tube_state *tube,
-                             const adaptor_state *adaptor, v3 v_C, adaptor_report *report,
-                             launching_output *out)
+                             const adaptor_state *adaptor, launching_output *out)
 {
     double fy = -law->k * adaptor->y - law->c * adaptor->y_dot;
     double fz = -law->k * adaptor->z - law->c * adaptor->z_dot;
     v3 force = v3_add(v3_scale(fy, m3_column(adaptor->foot->A, 1)),
                       v3_scale(fz, m3_column(adaptor->foot->A, 2)));
+    adaptor_report *report = &out->adaptor[adaptor->number];
     report->normal = report->force = sqrt(fy * fy + fz * fz);
-    v3 v_rel = v3_sub(v_C, adaptor_wall_velocity(tube, adaptor, adaptor->C, adaptor->offset));
+    v3 v_rel =
+        v3_sub(adaptor->v_C, adaptor_wall_velocity(tube, adaptor, adaptor->C, adaptor->offset));
     out->power[POWER_CONTACT_NORMAL] += v3_dot(force, v_rel);
     return force;
 }
 
 // Normal force and friction at the wall point W.
 LD_INLINE v3 wall_force(const contact_law *law, double wall_radius, const adaptor_state *adaptor,
-                        int i, double e, v3 *W, launching_instant *now)
+                        double e, v3 *W, launching_instant *now)
 {
+    int i = adaptor->number;
     const tube_state *tube = &now->tube;
     const rocket_state *rocket = &now->rocket;
     launching_output *out = now->out;
@@ -137,22 +143,20 @@ LD_INLINE void adaptor_add(const int lanes, const adaptor_set *self, const tube_
 {
     const tube_state *tube = &now->tube;
     const rocket_state *rocket = &now->rocket;
-    adaptor_report *report = &now->out->adaptor[i];
     adaptor_state adaptor;
     adaptor_load(self, guide, tube, rocket, i, &adaptor);
     double e = sqrt(adaptor.y * adaptor.y + adaptor.z * adaptor.z);
     double penetration = e - self->clearance[i];
-    *report = (adaptor_report){
+    now->out->adaptor[i] = (adaptor_report){
         .s = adaptor.foot->x, .y = adaptor.y, .z = adaptor.z, .penetration = penetration};
     if (penetration <= 0 && !self->law.two_sided)
         return;
-    v3 v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, adaptor.arm));
-    adaptor_rates(tube, rocket, i, v_C, &adaptor);
+    adaptor_rates(tube, rocket, &adaptor);
     v3 W = adaptor.C, force;
     if (self->law.two_sided)
-        force = bilateral_force(&self->law, tube, &adaptor, v_C, report, now->out);
+        force = bilateral_force(&self->law, tube, &adaptor, now->out);
     else
-        force = wall_force(&self->law, guide->flexible.bore_radius, &adaptor, i, e, &W, now);
+        force = wall_force(&self->law, guide->flexible.bore_radius, &adaptor, e, &W, now);
     now->f = v3_add(now->f, force);
     now->m = v3_add(now->m, v3_cross(v3_sub(W, rocket->p1), force));
     apply_at_section(lanes, guide, adaptor.foot, W, v3_neg(force), &now->on_tube);

@@ -58,25 +58,32 @@ LD_INLINE v3 clamp_moment(const clamp_state *clamp, int i)
     return m3_apply(clamp->A_RT, rv_left_jacobian_inverse_transposed(clamp->phi, e));
 }
 
-// The next direction of the set, of this wrench on the section, with what its acceleration lacks
-// without accelerations of the tube, its rate and its error.
-LD_INLINE void clamp_direction(const launching_instant *now, int section, v3 f, v3 m, double bias,
-                               double rate, double error, constraint_set *set)
+// A coordinate that a clamp holds at zero.
+typedef struct clamped_coordinate {
+    v3 f, m;            // unit wrench on the section that holds it
+    double value, rate; // what is wrong with it
+    double bias;        // of its acceleration, what speeds and base make
+} clamped_coordinate;
+
+// Its direction, the next one of the set.
+LD_INLINE void clamp_direction(const launching_instant *now, int section,
+                               const clamped_coordinate *held, constraint_set *set)
 {
+    const unit_wrench unit = {held->f, held->m, v3_zero(), v3_zero()};
     constraint_direction *e = &set->e[set->count++];
     e->section = section;
     e->work = POWER_BASE;
     e->G_f = e->G_m = e->r_a = e->r_alpha = v3_zero();
-    direction_load_tube(now, &set->section[section], f, m, v3_zero(), e);
-    e->beta = -bias - now->phase->restoring * error;
-    e->drift = -rate;
-    e->error = -error;
+    direction_load_tube(now, &set->section[section], &unit, e);
+    e->beta = -held->bias - now->phase->restoring * held->value;
+    e->drift = -held->rate;
+    e->error = -held->value;
 }
 
 LD_INLINE void clamp_translations(const tube_support *support, const launching_instant *now,
                                   int number, const clamp_state *clamp, constraint_set *set)
 {
-    const double error[3] = {clamp->d.x, clamp->d.y, clamp->d.z};
+    const double d[3] = {clamp->d.x, clamp->d.y, clamp->d.z};
     v3 carried = v3_add(clamp->a, v3_cross(clamp->alpha, clamp->rho));
     carried = v3_add(carried, v3_cross(clamp->w, v3_cross(clamp->w, clamp->rho)));
     carried = v3_add(carried, v3_scale(2, v3_cross(clamp->w, clamp->v_rel)));
@@ -84,15 +91,19 @@ LD_INLINE void clamp_translations(const tube_support *support, const launching_i
     for (int i = 0; i < 3; i++)
         if (support->clamped >> (LD_CLAMP_X + i) & 1u) {
             v3 e = m3_column(clamp->A_RT, i);
-            clamp_direction(now, number, e, v3_zero(), v3_dot(e, bias), v3_dot(e, clamp->v_rel),
-                            error[i], set);
+            const clamped_coordinate held = {.f = e,
+                                             .m = v3_zero(),
+                                             .value = d[i],
+                                             .rate = v3_dot(e, clamp->v_rel),
+                                             .bias = v3_dot(e, bias)};
+            clamp_direction(now, number, &held, set);
         }
 }
 
 LD_INLINE void clamp_rotations(const tube_support *support, const launching_instant *now,
                                int number, const clamp_state *clamp, constraint_set *set)
 {
-    const double error[3] = {clamp->phi.x, clamp->phi.y, clamp->phi.z};
+    const double phi[3] = {clamp->phi.x, clamp->phi.y, clamp->phi.z};
     v3 m[3], bias = v3_sub(set->section[number].bias.gw, clamp->alpha);
     for (int i = 0; i < 3; i++)
         m[i] = clamp_moment(clamp, i);
@@ -103,9 +114,14 @@ LD_INLINE void clamp_rotations(const tube_support *support, const launching_inst
     bias = v3_sub(bias, m3_apply(clamp->A_RT, turning));
     const double rates[3] = {rate.x, rate.y, rate.z};
     for (int i = 0; i < 3; i++)
-        if (support->clamped >> (LD_CLAMP_ROLL + i) & 1u)
-            clamp_direction(now, number, v3_zero(), m[i], v3_dot(m[i], bias), rates[i], error[i],
-                            set);
+        if (support->clamped >> (LD_CLAMP_ROLL + i) & 1u) {
+            const clamped_coordinate held = {.f = v3_zero(),
+                                             .m = m[i],
+                                             .value = phi[i],
+                                             .rate = rates[i],
+                                             .bias = v3_dot(m[i], bias)};
+            clamp_direction(now, number, &held, set);
+        }
 }
 
 // The section of a clamped station as the next one of the set.

@@ -32,6 +32,14 @@ typedef struct constraint_direction {
     int work;        // of its force, which among the powers
 } constraint_direction;
 
+// A unit force and moment at a point of a section of the tube that is a point of the rocket, too;
+// all in R. The force is zero where a moment holds, and the moment where a force does.
+typedef struct unit_wrench {
+    v3 f, m;
+    v3 r_T; // the point, from the section's axis point
+    v3 rho; // the same, from O1
+} unit_wrench;
+
 // Velocity-dependent accelerations of a section (formulation.md, section 4: gv, gw).
 typedef struct section_bias {
     v3 gv, gw;
@@ -90,12 +98,26 @@ typedef struct constrained {
     v3 force[LD_MAX_CONSTRAINT_SECTIONS], mu[LD_MAX_CONSTRAINT_SECTIONS];
 } constrained;
 
-// A plane's part of B_1^T M^-1 B_2 where it has shapes of its own: force and couple (that the slope
-// works on) of each direction; one section is two alike.
-LD_INLINE double plane_product(double bb, double bb1, double b1b, double b1b1, double f_p,
-                               double mu_p, double f_q, double mu_q)
+// What a direction does to the modes of a plane: by its force, and by its couple, that the slope
+// works on.
+typedef struct plane_load {
+    double f, mu;
+} plane_load;
+
+LD_INLINE plane_load load_in_y(const constraint_direction *e)
 {
-    return bb * f_p * f_q + bb1 * f_p * mu_q + b1b * mu_p * f_q + b1b1 * mu_p * mu_q;
+    return (plane_load){e->force.y, e->mu.z};
+}
+LD_INLINE plane_load load_in_z(const constraint_direction *e)
+{
+    return (plane_load){e->force.z, -e->mu.y};
+}
+
+// A plane's part of B_1^T M^-1 B_2 where it has shapes of its own; one section is two alike.
+LD_INLINE double plane_product(double bb, double bb1, double b1b, double b1b1, plane_load p,
+                               plane_load q)
+{
+    return bb * p.f * q.f + bb1 * p.f * q.mu + b1b * p.mu * q.f + b1b1 * p.mu * q.mu;
 }
 
 LD_OUTLINE double modal_product_two_planes(const section_shapes *shapes,
@@ -103,9 +125,8 @@ LD_OUTLINE double modal_product_two_planes(const section_shapes *shapes,
                                            const constraint_direction *q)
 {
     const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[PLANE_Z];
-    return plane_product(y->bb, y->bb1, y->bb1, y->b1b1, p->force.y, p->mu.z, q->force.y, q->mu.z) +
-           plane_product(z->bb, z->bb1, z->bb1, z->b1b1, p->force.z, -p->mu.y, q->force.z,
-                         -q->mu.y) +
+    return plane_product(y->bb, y->bb1, y->bb1, y->b1b1, load_in_y(p), load_in_y(q)) +
+           plane_product(z->bb, z->bb1, z->bb1, z->b1b1, load_in_z(p), load_in_z(q)) +
            shapes->tt * p->mu.x * q->mu.x;
 }
 
@@ -114,10 +135,10 @@ LD_OUTLINE double modal_cross_product_two_planes(const shape_products *of,
                                                  const constraint_direction *q)
 {
     const int z = PLANE_Z;
-    return plane_product(of->bb[0], of->bb1[0], of->b1b[0], of->b1b1[0], p->force.y, p->mu.z,
-                         q->force.y, q->mu.z) +
-           plane_product(of->bb[z], of->bb1[z], of->b1b[z], of->b1b1[z], p->force.z, -p->mu.y,
-                         q->force.z, -q->mu.y) +
+    return plane_product(of->bb[0], of->bb1[0], of->b1b[0], of->b1b1[0], load_in_y(p),
+                         load_in_y(q)) +
+           plane_product(of->bb[z], of->bb1[z], of->b1b[z], of->b1b1[z], load_in_z(p),
+                         load_in_z(q)) +
            of->tt * p->mu.x * q->mu.x;
 }
 
@@ -164,11 +185,11 @@ LD_INLINE void shape_products_load(const int lanes, const tube_system *guide,
         products->tt += p->tau[j] * q->tau[j];
 }
 
-// Sets up what a direction does to the tube from its wrench at the section: the opposite of force f
-// at the section's point P + r_T and of pure moment m.
+// Sets up what a direction does to the tube: the opposite of its unit wrench at the section.
 LD_INLINE void direction_load_tube(const launching_instant *now, const constraint_section *section,
-                                   v3 f, v3 m, v3 r_T, constraint_direction *e)
+                                   const unit_wrench *unit, constraint_direction *e)
 {
+    v3 f = unit->f, m = unit->m, r_T = unit->r_T;
     const tube_state *tube = &now->tube;
     const section_shapes *shapes = &section->shapes;
     const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[shapes->z];
@@ -188,14 +209,14 @@ LD_INLINE void direction_load_tube(const launching_instant *now, const constrain
     tube_forward(tube, B_f, B_m, e->rigid);
 }
 
-// The same with the wrench itself on the rocket, at O1 + rho.
-LD_INLINE void direction_load(const launching_instant *now, const constraint_section *section, v3 f,
-                              v3 m, v3 r_T, v3 rho, constraint_direction *e)
+// The same with the wrench itself on the rocket.
+LD_INLINE void direction_load(const launching_instant *now, const constraint_section *section,
+                              const unit_wrench *unit, constraint_direction *e)
 {
-    e->G_f = f;
-    e->G_m = v3_add(m, v3_cross(rho, f));
+    e->G_f = unit->f;
+    e->G_m = v3_add(unit->m, v3_cross(unit->rho, unit->f));
     rocket_solve(&now->inertia, e->G_f, e->G_m, &e->r_a, &e->r_alpha);
-    direction_load_tube(now, section, f, m, r_T, e);
+    direction_load_tube(now, section, unit, e);
 }
 
 // G_p^T M3^-1 G_q + B_p^T M2^-1 B_q.
@@ -213,18 +234,20 @@ LD_INLINE double direction_product(const tube_state *tube, const constraint_set 
            tube_product(tube, p->rigid, q->rigid) + modal;
 }
 
-// G^T r_O - B^T e_0 for the accelerations without constraint forces.
-LD_INLINE double free_acceleration(const int lanes, const tube_system *self, const tube_state *tube,
-                                   const section_shapes *shapes, const constraint_direction *e,
-                                   v3 r_a, v3 r_alpha, const double rigid[6], const tube_force *h)
+// G^T r_O - B^T e_0 for the accelerations without constraint forces, given by `to`.
+LD_INLINE double free_acceleration(const int lanes, const tube_system *guide,
+                                   const launching_instant *now, const constraint_set *set,
+                                   const constraint_direction *e, const constrained *to)
 {
+    const tube_force *h = &now->on_tube;
+    const section_shapes *shapes = &set->section[e->section].shapes;
     const plane_shapes *y = &shapes->plane[PLANE_Y], *z = &shapes->plane[shapes->z];
     double modal = e->force.y * v4d_dot(lanes, y->b, h->y) + e->mu.z * v4d_dot(lanes, y->b1, h->y) +
                    e->force.z * v4d_dot(lanes, z->b, h->z) - e->mu.y * v4d_dot(lanes, z->b1, h->z);
-    for (int j = 0; j < self->flexible.nt; j++)
+    for (int j = 0; j < guide->flexible.nt; j++)
         modal += e->mu.x * shapes->tau[j] * h->t[j];
-    return v3_dot(e->G_f, r_a) + v3_dot(e->G_m, r_alpha) - tube_product(tube, e->rigid, rigid) -
-           modal;
+    return v3_dot(e->G_f, to->a) + v3_dot(e->G_m, to->alpha) -
+           tube_product(&now->tube, e->rigid, to->rigid) - modal;
 }
 
 LD_INLINE section_bias bias_of(const tube_state *tube, const constraint_section *section)
@@ -243,10 +266,12 @@ LD_INLINE section_bias bias_of(const tube_state *tube, const constraint_section 
     return bias;
 }
 
-// beta and drift of a direction of force n at the knob (or O1): formulation.md, section 4.
-LD_INLINE void force_bias(const launching_instant *now, const constraint_section *section, v3 n,
-                          v3 dn_dt, v3 r_T, v3 rho, constraint_direction *e)
+// beta and drift of a direction of a unit force, whose n turns by dn_dt in the section:
+// formulation.md, section 4.
+LD_INLINE void force_bias(const launching_instant *now, const constraint_section *section,
+                          const unit_wrench *unit, v3 dn_dt, constraint_direction *e)
 {
+    v3 n = unit->f, r_T = unit->r_T, rho = unit->rho;
     const tube_state *tube = &now->tube;
     const rocket_state *rocket = &now->rocket;
     const section_bias *bias = &section->bias;
@@ -317,17 +342,17 @@ LD_INLINE void rocket_section_add(const int lanes, const tube_system *guide,
     constraint_section_add(lanes, guide, &now->tube, set);
 }
 
-// The next direction, a force along n at the point P + r_T of the section, O1 + rho of the rocket;
-// what it does counts as that work.
-LD_INLINE constraint_direction *constrain_force(const launching_instant *now, int section, v3 n,
-                                                v3 dn_dt, v3 r_T, v3 rho, int work,
+// The next direction, of a unit force that turns by dn_dt in the section; what it does counts as
+// that work.
+LD_INLINE constraint_direction *constrain_force(const launching_instant *now, int section,
+                                                const unit_wrench *unit, v3 dn_dt, int work,
                                                 constraint_set *set)
 {
     constraint_direction *e = &set->e[set->count++];
     e->section = section;
     e->work = work;
-    direction_load(now, &set->section[section], n, v3_zero(), r_T, rho, e);
-    force_bias(now, &set->section[section], n, dn_dt, r_T, rho, e);
+    direction_load(now, &set->section[section], unit, e);
+    force_bias(now, &set->section[section], unit, dn_dt, e);
     return e;
 }
 

@@ -24,9 +24,9 @@ LD_INLINE v3 tangent_rate(const constraint_section *section)
     return v3_sub(t_dot, v3_cross(section->Om, at->t));
 }
 
-// The section at the foot of adaptor i as the next one of the set.
+// The section at the adaptor's foot as the next one of the set.
 LD_INLINE int foot_add(const int lanes, const tube_system *guide, const launching_instant *now,
-                       const adaptor_state *adaptor, v3 v_C, constraint_set *set)
+                       const adaptor_state *adaptor, constraint_set *set)
 {
     const tube_state *tube = &now->tube;
     const axis_section *at = adaptor->foot;
@@ -37,25 +37,22 @@ LD_INLINE int foot_add(const int lanes, const tube_system *guide, const launchin
     section->v_P = v3_add(v3_add(tube->v, v3_cross(tube->w, at->P)), adaptor->rates->u_dot);
     section->w_P = v3_add(tube->w, adaptor->rates->w);
     v3 twist = m3_apply(at->Jl, at->k0), axis = m3_column(at->A, 0);
-    v3 slip = v3_sub(v_C, v3_add(section->v_P, v3_cross(section->w_P, adaptor->offset)));
+    v3 slip = v3_sub(adaptor->v_C, v3_add(section->v_P, v3_cross(section->w_P, adaptor->offset)));
     v3 column = v3_add(at->t, v3_cross(twist, adaptor->offset));
     section->s_dot = v3_dot(axis, slip) / v3_dot(axis, column);
     section->Om = v3_axpy(adaptor->rates->w, section->s_dot, twist);
     return constraint_section_add(lanes, guide, tube, set);
 }
 
-// The two directions of adaptor i; what it reports but for the force, which is not known yet.
-LD_INLINE void adaptor_constrain(const int lanes, const adaptor_set *self, const tube_system *guide,
-                                 int i, const launching_instant *now, adaptor_state *adaptor,
+// The two directions of an adaptor; what it reports but for the force, which is not known yet.
+LD_INLINE void adaptor_constrain(const int lanes, const tube_system *guide,
+                                 const launching_instant *now, const adaptor_state *adaptor,
                                  constraint_set *set)
 {
-    const rocket_state *rocket = &now->rocket;
-    adaptor_load(self, guide, &now->tube, rocket, i, adaptor);
-    v3 v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, adaptor->arm));
-    adaptor_rates(&now->tube, rocket, i, v_C, adaptor);
+    int i = adaptor->number;
     now->out->adaptor[i] =
         (adaptor_report){.s = adaptor->foot->x, .y = adaptor->y, .z = adaptor->z};
-    int number = i == 0 ? 0 : foot_add(lanes, guide, now, adaptor, v_C, set);
+    int number = i == 0 ? 0 : foot_add(lanes, guide, now, adaptor, set);
     const constraint_section *section = &set->section[number];
     const axis_section *at = section->at;
     v3 t_rate = tangent_rate(section), e_x = m3_column(at->A, 0);
@@ -66,8 +63,9 @@ LD_INLINE void adaptor_constrain(const int lanes, const adaptor_set *self, const
         double kappa = v3_dot(e, at->t) / along;
         v3 n = v3_axpy(e, -kappa, e_x);
         v3 n_rate = v3_scale(-v3_dot(n, t_rate) / along, e_x);
-        constraint_direction *held = constrain_force(now, number, n, n_rate, adaptor->offset,
-                                                     adaptor->arm, POWER_CONTACT_NORMAL, set);
+        const unit_wrench unit = {n, v3_zero(), adaptor->offset, adaptor->arm};
+        constraint_direction *held =
+            constrain_force(now, number, &unit, n_rate, POWER_CONTACT_NORMAL, set);
         held->beta += now->phase->restoring * offset[k];
     }
 }
@@ -78,8 +76,11 @@ LD_INLINE void ideal_constrain(const int lanes, const adaptor_set *self, const t
                                adaptor_state adaptor[IDEAL_MOST_ADAPTORS], constraint_set *set)
 {
     for (int i = 0; self->law.held && i < self->count; i++)
-        if (!now->phase->passed[i])
-            adaptor_constrain(lanes, self, guide, i, now, &adaptor[i], set);
+        if (!now->phase->passed[i]) {
+            adaptor_load(self, guide, &now->tube, &now->rocket, i, &adaptor[i]);
+            adaptor_rates(&now->tube, &now->rocket, &adaptor[i]);
+            adaptor_constrain(lanes, guide, now, &adaptor[i], set);
+        }
 }
 
 // The forces found, of the adaptors that are held.

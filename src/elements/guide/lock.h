@@ -22,7 +22,8 @@ LD_INLINE void roll_constrain(const launching_instant *now, constraint_set *set)
     constraint_direction *roll = &set->e[set->count++];
     v3 axis = m3_column(rocket->at.A, 0);
     roll->section = 0;
-    direction_load(now, &set->section[0], v3_zero(), axis, v3_zero(), v3_zero(), roll);
+    const unit_wrench unit = {v3_zero(), axis, v3_zero(), v3_zero()};
+    direction_load(now, &set->section[0], &unit, roll);
     v3 axis_dot = v3_cross(v3_add(now->tube.w, rocket->Om), axis);
     v3 w_rel = v3_sub(rocket->w_B, rocket->w_P);
     roll->work = POWER_LOCK;
@@ -35,9 +36,9 @@ LD_INLINE void lock_constrain(const lock_system *self, const launching_instant *
 {
     const rocket_state *rocket = &now->rocket;
     v3 rho = m3_apply(rocket->A_RB, self->at);
+    const unit_wrench axial = {m3_column(rocket->at.A, 0), v3_zero(), v3_add(rocket->Ad, rho), rho};
     set->lock_row = set->count;
-    constrain_force(now, 0, m3_column(rocket->at.A, 0), v3_zero(), v3_add(rocket->Ad, rho), rho,
-                    POWER_LOCK, set);
+    constrain_force(now, 0, &axial, v3_zero(), POWER_LOCK, set);
     if (self->holds_roll)
         roll_constrain(now, set);
 }

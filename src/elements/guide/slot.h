@@ -70,13 +70,14 @@ LD_INLINE void slot_constrain(const slot_system *self, const launching_instant *
     slot_load(self, rocket, &slot);
     v3 n = m3_apply(rocket->at.A, slot.n), tau = m3_apply(rocket->at.A, slot.tau);
     v3 r_T = m3_apply(rocket->at.A, slot.r_E), rho = v3_sub(r_T, rocket->Ad);
+    const unit_wrench normal = {n, v3_zero(), r_T, rho}, along = {tau, v3_zero(), r_T, rho};
     set->slot_row = set->count;
-    constrain_force(now, 0, n, m3_apply(rocket->at.A, slot.n_dot), r_T, rho, POWER_SLOT, set);
+    constrain_force(now, 0, &normal, m3_apply(rocket->at.A, slot.n_dot), POWER_SLOT, set);
     set->sliding = !now->phase->locked && !now->phase->frictionless && self->friction > 0;
     if (!set->sliding)
         return;
     set->tangent.section = 0;
-    direction_load(now, &set->section[0], tau, v3_zero(), r_T, rho, &set->tangent);
+    direction_load(now, &set->section[0], &along, &set->tangent);
     v3 v_E = v3_add(rocket->v_O1, v3_cross(rocket->w_B, rho));
     set->v_tau = v3_dot(tau, v3_sub(v_E, v3_add(rocket->v_P, v3_cross(rocket->w_P, r_T))));
     set->mu = self->friction;

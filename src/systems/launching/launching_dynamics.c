@@ -26,10 +26,7 @@ LD_INLINE bool constrain(const int lanes, const launching_system *self,
     if (!set->count)
         return true;
     for (int i = 0; i < set->count; i++)
-        r[i] = -(free_acceleration(lanes, &self->tube, &now->tube,
-                                   &set->section[set->e[i].section].shapes, &set->e[i], to->a,
-                                   to->alpha, to->rigid, &now->on_tube) +
-                 set->e[i].beta);
+        r[i] = -(free_acceleration(lanes, &self->tube, now, set, &set->e[i], to) + set->e[i].beta);
     constraint_products_load(lanes, &self->tube, &now->tube, set, &D);
     if (!constraints_solve(&D, r, set))
         return false;
@@ -40,24 +37,41 @@ LD_INLINE bool constrain(const int lanes, const launching_system *self,
     return true;
 }
 
-// The tube's accelerations with the constraint forces.
-LD_INLINE void accelerate_tube(const int lanes, const bool rocket, const launching_system *self,
-                               const launching_instant *now, const constraint_set *set,
-                               const constrained *all, v3 *a, v3 *w_dot, double *q_ddot)
+LD_INLINE section_reaction reaction_at(const constraint_set *set, const constrained *all, int i)
 {
-    tube_backward(&now->tube, all->rigid, a, w_dot);
-    tube_modal_accelerations(lanes, &self->tube, &now->tube,
-                             rocket ? &set->section[0].shapes : NULL, &now->on_tube, all->force[0],
-                             all->mu[0], *a, *w_dot, q_ddot);
-    for (int i = rocket; i < set->section_count; i++)
-        react_on_modes(&self->tube, &set->section[i].shapes, all->force[i], all->mu[i], q_ddot);
+    return (section_reaction){&set->section[i].shapes, all->force[i], all->mu[i]};
 }
 
-LD_INLINE launching_outcome evaluate(const int lanes, const bool rocket, const bool holds,
-                                     const launching_system *self, const launching_input *input,
-                                     const launching_phase *phase, const double *state,
-                                     launching_output *out)
+// Accelerations of the tube's frame and of its modes with the constraint forces.
+LD_INLINE frame_acceleration accelerate_tube(const int lanes, const launching_system *self,
+                                             const launching_instant *now,
+                                             const constraint_set *set, const constrained *all,
+                                             double *q_ddot)
 {
+    frame_acceleration frame = tube_backward(&now->tube, all->rigid);
+    section_reaction first = reaction_at(set, all, 0);
+    tube_modal_accelerations(lanes, &self->tube, now, set->section_count ? &first : NULL, frame,
+                             q_ddot);
+    for (int i = 1; i < set->section_count; i++) {
+        section_reaction other = reaction_at(set, all, i);
+        react_on_modes(&self->tube, &other, q_ddot);
+    }
+    return frame;
+}
+
+// What an instance of the code knows when it is compiled: lanes of modes, whether the rocket is in
+// the tube, whether something is held in its place.
+typedef struct evaluation_kind {
+    int lanes;
+    bool rocket, holds;
+} evaluation_kind;
+
+LD_INLINE launching_outcome evaluate(const evaluation_kind kind, const launching_system *self,
+                                     const launching_input *input, const launching_phase *phase,
+                                     const double *state, launching_output *out)
+{
+    const int lanes = kind.lanes;
+    const bool rocket = kind.rocket, holds = kind.holds;
     launching_instant now;
     now.input = input;
     now.phase = phase;
@@ -83,8 +97,10 @@ LD_INLINE launching_outcome evaluate(const int lanes, const bool rocket, const b
     constraints_record(&now, &constraints.set);
     out->a_O1 = all.a;
     out->alpha_B = all.alpha;
-    accelerate_tube(lanes, rocket, self, &now, &constraints.set, &all, &out->a, &out->w_dot,
-                    out->q_ddot);
+    frame_acceleration frame =
+        accelerate_tube(lanes, self, &now, &constraints.set, &all, out->q_ddot);
+    out->a = frame.a;
+    out->w_dot = frame.w_dot;
     return LAUNCHING_OK;
 }
 
@@ -100,7 +116,7 @@ typedef launching_outcome evaluation(const launching_system *self, const launchi
         const launching_system *self, const launching_input *input, const launching_phase *phase,  \
         const double *state, launching_output *out)                                                \
     {                                                                                              \
-        return evaluate(LANES, ROCKET, HOLDS, self, input, phase, state, out);                     \
+        return evaluate((evaluation_kind){LANES, ROCKET, HOLDS}, self, input, phase, state, out);  \
     }
 #define INSTANCES(TARGET, USUAL, FEW_MODES, ANY)                                                   \
     INSTANCE(TARGET, USUAL, 2, true, false)                                                        \
@@ -155,18 +171,20 @@ static void load_to_project(int lanes, const launching_system *self, const doubl
 }
 
 // What that impulse makes of tube and rocket, with all modes that the tube has.
-static void change_by_impulse(int lanes, const launching_system *self, const launching_instant *now,
+static void change_by_impulse(const launching_system *self, const launching_instant *now,
                               const constraint_set *set, const double *state, const double *wrong,
                               launching_change *change)
 {
+    int lanes = self->tube.flexible.nbp / 4;
     constrained impulse;
     if (self->tube.flexible.na > 0) { // the fast layout has no axial ones
         launching_impulse_general(self, now, set, state, wrong, change);
         return;
     }
     find_impulse(lanes, self, now, set, wrong, &impulse);
-    accelerate_tube(lanes, now->phase->rocket, self, now, set, &impulse, &change->a, &change->w_dot,
-                    change->q_ddot);
+    frame_acceleration frame = accelerate_tube(lanes, self, now, set, &impulse, change->q_ddot);
+    change->a = frame.a;
+    change->w_dot = frame.w_dot;
     change->a_O1 = impulse.a;
     change->alpha_B = impulse.alpha;
 }
@@ -191,7 +209,7 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
         }
         if (most < 1e-15)
             return;
-        change_by_impulse(lanes, self, &now, &clamps.set, state, wrong, &shift);
+        change_by_impulse(self, &now, &clamps.set, state, wrong, &shift);
         quat turned = q_multiply(now.tube.q_IR, rv_quaternion(shift.w_dot));
         v3_store(state + at->r, v3_add(now.tube.r, m3_apply(now.tube.A_IR, shift.a)));
         memcpy(state + at->quaternion, &turned, sizeof turned);
@@ -201,7 +219,7 @@ static void place_on_clamps(int lanes, const launching_system *self, const launc
 }
 
 // Takes the drift of all constraints out of the speeds.
-static void remove_drift(int lanes, const launching_system *self, const launching_instant *now,
+static void remove_drift(const launching_system *self, const launching_instant *now,
                          const constraint_set *set, double *state)
 {
     const launching_layout *at = &self->layout;
@@ -209,7 +227,7 @@ static void remove_drift(int lanes, const launching_system *self, const launchin
     double drift[LD_MAX_CONSTRAINTS];
     for (int i = 0; i < set->count; i++)
         drift[i] = set->e[i].drift;
-    change_by_impulse(lanes, self, now, set, state, drift, &change);
+    change_by_impulse(self, now, set, state, drift, &change);
     if (now->phase->rocket) {
         v3_store(state + at->V, v3_add(now->rocket.v_O1, change.a_O1));
         v3_store(state + at->V + 3, v3_add(now->rocket.w_B, change.alpha_B));
@@ -239,5 +257,5 @@ void launching_project(const launching_system *self, const launching_input *inpu
     }
     launching_constrain(lanes, phase->rocket, true, self, &now, &constraints);
     if (constraints.set.count)
-        remove_drift(lanes, self, &now, &constraints.set, state);
+        remove_drift(self, &now, &constraints.set, state);
 }

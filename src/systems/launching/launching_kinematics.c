@@ -56,8 +56,7 @@ double launching_offset_rate(const launching_system *self, const double *state, 
     tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
     rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
     adaptor_load(&self->adaptors, &self->tube, &tube, &rocket, i, &adaptor);
-    v3 v_C = v3_add(rocket.v_O1, v3_cross(rocket.w_B, adaptor.arm));
-    adaptor_rates(&tube, &rocket, i, v_C, &adaptor);
+    adaptor_rates(&tube, &rocket, &adaptor);
     double e = sqrt(adaptor.y * adaptor.y + adaptor.z * adaptor.z);
     return (adaptor.y * adaptor.y_dot + adaptor.z * adaptor.z_dot) / e;
 }
@@ -68,10 +67,9 @@ double launching_surface_rate(const launching_system *self, const double *state,
     rocket_state rocket;
     launching_output unused;
     shoe_state shoe;
-    shoe_motion motion;
     tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
     rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
     shoe_load(&self->adaptors, &self->tube, &tube, &rocket, i, &shoe);
-    shoe_motion_load(&tube, &rocket, i, &shoe, &motion);
-    return surface_contact_of(&self->surfaces.surface[k], &rocket, &shoe, &motion).rate;
+    shoe_touch(&tube, &rocket, &shoe);
+    return surface_contact_of(&self->surfaces.surface[k], &rocket, &shoe).rate;
 }
