@@ -139,23 +139,26 @@ void atmosphere_state(const atmosphere *self, double altitude, double *temperatu
     *pressure = layer->pressure * pressure_ratio(layer, H, *temperature);
 }
 
+static air air_of(real_air found)
+{
+    return (air){found.density, found.speed_of_sound};
+}
+
 static air measured_at(const atmosphere *self, double altitude)
 {
-    air out;
     double piece[ATMOSPHERE_PIECE];
     size_t interval = atmosphere_interval(&self->profile, altitude);
     double above = atmosphere_piece(&self->profile, interval, altitude, 0, piece);
-    atmosphere_measured(piece, above, altitude, self->density_scale, self->temperature_offset,
-                        &out.density, &out.speed_of_sound);
-    return out;
+    return air_of(
+        atmosphere_measured(piece, above, altitude, self->density_scale, self->temperature_offset));
 }
 
 air atmosphere_at(const atmosphere *self, double altitude)
 {
     air out = {0, 1};
     if (self->kind == LD_ATMOSPHERE_US1976)
-        atmosphere_standard(self->layer, altitude, self->density_scale, self->temperature_offset,
-                            &out.density, &out.speed_of_sound);
+        out = air_of(atmosphere_standard(self->layer, altitude, self->density_scale,
+                                         self->temperature_offset));
     else if (self->kind == LD_ATMOSPHERE_PROFILE)
         out = measured_at(self, altitude);
     else if (self->kind == LD_ATMOSPHERE_UNIFORM)

@@ -66,10 +66,21 @@ LD_INLINE real atmosphere_pressure_ratio(const real_layer *layer, real H, real T
     return real_exp(log_ratio);
 }
 
-// Density [kg/m3] and speed of sound [m/s] at a geometric altitude [m].
-LD_INLINE void atmosphere_standard(const atmosphere_layer *layers, real altitude,
-                                   real density_scale, real temperature_offset, real *density,
-                                   real *speed_of_sound)
+// Air at an altitude.
+typedef struct real_air {
+    real density, speed_of_sound; // [kg/m3], [m/s]
+} real_air;
+
+// Of this density up to the top at the temperature, nothing above.
+LD_INLINE real_air atmosphere_air(real altitude, real density, real temperature)
+{
+    return (real_air){real_select(altitude <= ATMOSPHERE_TOP, density, real_all(0)),
+                      real_sqrt(ATMOSPHERE_RATIO_OF_HEATS * ATMOSPHERE_GAS_CONSTANT * temperature)};
+}
+
+// At a geometric altitude [m].
+LD_INLINE real_air atmosphere_standard(const atmosphere_layer *layers, real altitude,
+                                       real density_scale, real temperature_offset)
 {
     real H = atmosphere_geopotential(
         real_select(altitude < ATMOSPHERE_TOP, altitude, real_all(ATMOSPHERE_TOP)));
@@ -78,8 +89,7 @@ LD_INLINE void atmosphere_standard(const atmosphere_layer *layers, real altitude
     // rho = p/(R T), the pressure being that of the standard whatever the offset
     real rho = density_scale * layer.density * atmosphere_pressure_ratio(&layer, H, T) *
                layer.temperature / warm;
-    *density = real_select(altitude <= ATMOSPHERE_TOP, rho, real_all(0));
-    *speed_of_sound = real_sqrt(ATMOSPHERE_RATIO_OF_HEATS * ATMOSPHERE_GAS_CONSTANT * warm);
+    return atmosphere_air(altitude, rho, warm);
 }
 
 // The interval of a measured profile that an altitude lies in, where none is known near it.
@@ -108,11 +118,9 @@ LD_INLINE double atmosphere_piece(const curves *profile, size_t interval, double
     return held - profile->x[interval];
 }
 
-// Density and speed of sound of measured air by the pieces of each lane, heights above their
-// beginnings.
-LD_INLINE void atmosphere_measured(real piece[ATMOSPHERE_PIECE], real above, real altitude,
-                                   real density_scale, real temperature_offset, real *density,
-                                   real *speed_of_sound)
+// Measured air by the pieces of each lane, heights above their beginnings.
+LD_INLINE real_air atmosphere_measured(real piece[ATMOSPHERE_PIECE], real above, real altitude,
+                                       real density_scale, real temperature_offset)
 {
     for (int first = 0; first < ATMOSPHERE_PIECE; first += LANES)
         real_turn(piece + first);
@@ -120,8 +128,7 @@ LD_INLINE void atmosphere_measured(real piece[ATMOSPHERE_PIECE], real above, rea
     real_pair log_p = {k[0] + above * (k[2] + above * (k[4] + above * k[6])), real_all(0)};
     real T = k[1] + above * (k[3] + above * (k[5] + above * k[7])), warm = T + temperature_offset;
     real rho = density_scale * real_exp(log_p) / (ATMOSPHERE_GAS_CONSTANT * warm);
-    *density = real_select(altitude <= ATMOSPHERE_TOP, rho, real_all(0));
-    *speed_of_sound = real_sqrt(ATMOSPHERE_RATIO_OF_HEATS * ATMOSPHERE_GAS_CONSTANT * warm);
+    return atmosphere_air(altitude, rho, warm);
 }
 
 #endif

@@ -64,12 +64,18 @@ v3 earth_gravity(const earth *self, v3 r)
     return v3_make(g.x, g.y, g.z);
 }
 
+static real_ellipsoid ellipsoid_of(const earth *self)
+{
+    return (real_ellipsoid){self->a, self->b, self->e2};
+}
+
 geodetic earth_geodetic(const earth *self, v3 r)
 {
-    double sine, cosine, p = hypot(r.x, r.y);
-    earth_latitude(self->a, self->b, self->e2, p, r.z, 3, &sine, &cosine);
-    return (geodetic){atan2(sine, cosine), atan2(r.y, r.x),
-                      earth_height_above(self->a, self->e2, p, r.z, sine, cosine)};
+    double p = hypot(r.x, r.y);
+    real_ellipsoid of = ellipsoid_of(self);
+    real_latitude at = earth_latitude(&of, p, r.z, 3);
+    return (geodetic){atan2(at.sine, at.cosine), atan2(r.y, r.x),
+                      earth_height_above(&of, p, r.z, at)};
 }
 
 v3 earth_place(const earth *self, geodetic place)
@@ -85,7 +91,8 @@ double earth_altitude(const earth *self, v3 r)
 {
     if (self->flat)
         return self->altitude + r.y;
-    return earth_altitude_above(self->a, self->b, self->e2, real3_of(r));
+    real_ellipsoid of = ellipsoid_of(self);
+    return earth_altitude_above(&of, real3_of(r));
 }
 
 double earth_height(const earth *self, v3 r, v3 *up)

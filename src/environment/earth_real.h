@@ -13,44 +13,51 @@ LD_INLINE real3 earth_gravitation(real gm, real j2, real a, real3 r)
                    g * r.z * (1.0 + k * (3.0 - s))};
 }
 
-// Sine and cosine of the geodetic latitude of a point at the distances p from the axis and z from
+// Semi-axes [m] of the ellipsoid and its first eccentricity squared.
+typedef struct real_ellipsoid {
+    real a, b, e2;
+} real_ellipsoid;
+
+// Of the geodetic latitude.
+typedef struct real_latitude {
+    real sine, cosine;
+} real_latitude;
+
+// Geodetic latitude of a point at the distances p from the axis and z from
 // the equator: Bowring's iteration on the reduced latitude (Survey Review 23, 1976), by ratios, so
 // that the poles are no exception. The error falls by e2^2 (h/a) or so a round.
-LD_INLINE void earth_latitude(real a, real b, real e2, real p, real z, int rounds, real *sine,
-                              real *cosine)
+LD_INLINE real_latitude earth_latitude(const real_ellipsoid *of, real p, real z, int rounds)
 {
-    real outer = e2 * a, inner = outer * a / b; // e^2 a, e'^2 b
+    real a = of->a, b = of->b;
+    real outer = of->e2 * a, inner = outer * a / b; // e^2 a, e'^2 b
     real s = z * a, c = p * b;
+    real_latitude out = {s, c};
     for (int i = 0; i < rounds; i++) {
         real n = 1.0 / real_sqrt(s * s + c * c);
         s *= n;
         c *= n;
-        real up = z + inner * s * s * s, out = p - outer * c * c * c;
-        s = up * b;
-        c = out * a;
-        *sine = up;
-        *cosine = out;
+        out.sine = z + inner * s * s * s;
+        out.cosine = p - outer * c * c * c;
+        s = out.sine * b;
+        c = out.cosine * a;
     }
-    real n = 1.0 / real_sqrt(*sine * *sine + *cosine * *cosine);
-    *sine *= n;
-    *cosine *= n;
+    real n = 1.0 / real_sqrt(out.sine * out.sine + out.cosine * out.cosine);
+    return (real_latitude){out.sine * n, out.cosine * n};
 }
 
-LD_INLINE real earth_height_above(real a, real e2, real p, real z, real sine, real cosine)
+LD_INLINE real earth_height_above(const real_ellipsoid *of, real p, real z, real_latitude at)
 {
-    return p * cosine + z * sine - a * real_sqrt(1.0 - e2 * sine * sine);
+    return p * at.cosine + z * at.sine - of->a * real_sqrt(1.0 - of->e2 * at.sine * at.sine);
 }
 
-// Altitude [m] above the ellipsoid of the semi-axes a, b (its first eccentricity squared: e2), or
-// the sphere, of the point r of E or C.
-LD_INLINE real earth_altitude_above(real a, real b, real e2, real3 r)
+// Altitude [m] above the ellipsoid, or the sphere, of the point r of E or C.
+LD_INLINE real earth_altitude_above(const real_ellipsoid *of, real3 r)
 {
     real p = real_sqrt(r.x * r.x + r.y * r.y);
-    real sine, cosine;
     // the height changes with the square of the latitude's error
-    earth_latitude(a, b, e2, p, r.z, 2, &sine, &cosine);
-    real high = earth_height_above(a, e2, p, r.z, sine, cosine);
-    return real_select(e2 == 0.0, real_sqrt(p * p + r.z * r.z) - a, high);
+    real_latitude at = earth_latitude(of, p, r.z, 2);
+    real high = earth_height_above(of, p, r.z, at);
+    return real_select(of->e2 == 0.0, real_sqrt(p * p + r.z * r.z) - of->a, high);
 }
 
 #endif

@@ -156,10 +156,11 @@ static int turns_at(const road *self, double x, int first, double *sine, double 
 }
 
 // Adds height and its first three derivatives (orders = 4), or height alone (1), of a harmonic
-// whose amplitude at x is re + i im.
-LD_ALWAYS_INLINE void add_harmonic(double k, double re, double im, const double *cosine,
-                                   const double *sine, int orders, double sum[ORDERS][BLOCK])
+// whose amplitude at x is re + i im, with the cosines and sines of its turns [2][BLOCK].
+LD_ALWAYS_INLINE void add_harmonic(double k, double re, double im, const double *turns, int orders,
+                                   double sum[ORDERS][BLOCK])
 {
+    const double *cosine = turns, *sine = turns + BLOCK;
     if (orders == 1) {
         for (int j = 0; j < BLOCK; j++)
             sum[0][j] += re * cosine[j] - im * sine[j];
@@ -184,9 +185,8 @@ LD_ALWAYS_INLINE void add_harmonics(const road *self, road_track track, const do
         n = turns_at(self, x, first, s, c);
         for (int i = 0; i < n; i++) {
             int at = first + i;
-            const double *cosine = turns + (size_t)at * 2 * BLOCK;
             add_harmonic(self->k[at], a[at] * c[i] - b[at] * s[i], a[at] * s[i] + b[at] * c[i],
-                         cosine, cosine + BLOCK, orders, sum);
+                         turns + (size_t)at * 2 * BLOCK, orders, sum);
         }
     }
 }
@@ -362,14 +362,15 @@ double road_right_share(const ld_road *model, double z)
     return fmin(fmax((z - at[0]) / (at[1] - at[0]), 0), 1);
 }
 
-ld_status road_profile(const road *self, road_track track, double from, double step, size_t count,
+ld_status road_profile(const road *self, road_track track, const road_places *places,
                        double *height, ld_error *error)
 {
-    double *turns = turns_of(self, step);
+    size_t count = places->count;
+    double step = places->step, *turns = turns_of(self, step);
     if (!turns)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a profile of the road");
     for (size_t first = 0; first < count; first += BLOCK) {
-        double sum[ORDERS][BLOCK], slope = 0, start = from + (double)first * step;
+        double sum[ORDERS][BLOCK], slope = 0, start = places->from + (double)first * step;
         sum_block(self, track, turns, start, 1, sum);
         for (size_t j = 0; j < BLOCK && first + j < count; j++)
             height[first + j] =

@@ -50,8 +50,14 @@ ld_status road_lines(const ld_road *model, road_line **lines, size_t *count, ld_
 // Density [m3] of the random part at n [1/m], 0 beyond its wavelengths, and how much is shared.
 double road_density(const ld_road *model, double n, double *shared);
 
-// Heights [m] at the places from + i step [m], i < count.
-ld_status road_profile(const road *self, road_track track, double from, double step, size_t count,
+// The places from + i step [m], i < count.
+typedef struct road_places {
+    double from, step;
+    size_t count;
+} road_places;
+
+// Heights [m] there.
+ld_status road_profile(const road *self, road_track track, const road_places *places,
                        double *height, ld_error *error);
 
 // Power spectral density G_d(n) [m3] of a class (0: A) at n [1/m] (ISO 8608, class means).

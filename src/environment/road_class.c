@@ -55,13 +55,12 @@ static void fit(const double *density, double resolution, road_estimate *estimat
                            sqrt(fmax(square / bands - mean * mean, 0) / (bands - 1)));
 }
 
-ld_status road_classify(size_t count, double step, const double *height, double from, double to,
-                        road_estimate *estimate, ld_error *error)
+ld_status road_classify(const road_record *record, road_estimate *estimate, ld_error *error)
 {
-    size_t size = segment_of(count, step);
-    double resolution = 1 / ((double)size * step);
-    *estimate = (road_estimate){.from = fmax(fmax(from, LOWEST), WAVES * resolution),
-                                .to = fmin(fmin(to, HIGHEST), 0.25 / step),
+    size_t count = record->count, size = segment_of(count, record->step);
+    double step = record->step, resolution = 1 / ((double)size * step);
+    *estimate = (road_estimate){.from = fmax(fmax(record->from, LOWEST), WAVES * resolution),
+                                .to = fmin(fmin(record->to, HIGHEST), 0.25 / step),
                                 .density = NAN};
     // n0 and the octave above it are to be seen
     if (2 * size > count || estimate->from > N0 || estimate->to < 2 * N0)
@@ -69,7 +68,7 @@ ld_status road_classify(size_t count, double step, const double *height, double 
     double *density = malloc(size / 2 * sizeof *density);
     if (!density)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a spectrum of %zu samples", size);
-    ld_status status = spectrum_of_segments(count, step, height, size, density, error);
+    ld_status status = spectrum_of_segments(count, step, record->height, size, density, error);
     if (!status) {
         fit(density, resolution, estimate);
         estimate->nearest = road_class_of(estimate->density);

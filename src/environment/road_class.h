@@ -13,13 +13,20 @@ typedef struct road_estimate {
     int lowest, nearest, highest; // of density and that interval's ends, 0: A
 } road_estimate;
 
+// Heights [m] of a road, `step` [m] apart, and the inverse wavelengths [1/m] that they are known to
+// have.
+typedef struct road_record {
+    size_t count;
+    double step;
+    const double *height;
+    double from, to;
+} road_record;
+
 // Class (0: A to 7: H) whose bounds, twice and half its mean G_d(n0), hold a density [m3].
 int road_class_of(double density);
 
-// Fits G_d(n0) (n0/n)^2 to the heights [m], `step` [m] apart: the mean of ln G_d (n/n0)^2 over
-// thirds of octaves between `from` and `to` [1/m], what the heights are known to have, and what
-// segments of them resolve, 0.011 to 2.83/m at most.
-ld_status road_classify(size_t count, double step, const double *height, double from, double to,
-                        road_estimate *estimate, ld_error *error);
+// Fits G_d(n0) (n0/n)^2 to the heights: the mean of ln G_d (n/n0)^2 over thirds of octaves of what
+// the heights are known to have and segments of them resolve, 0.011 to 2.83/m at most.
+ld_status road_classify(const road_record *record, road_estimate *estimate, ld_error *error);
 
 #endif

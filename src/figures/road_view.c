@@ -105,9 +105,14 @@ static ld_status classify(ld_road_view *view, ld_error *error)
     }
     view->classified = is_random(model) || table->rows > 0;
     ld_status status = LD_OK;
-    for (int track = 0; track < ROAD_TRACKS && view->classified && !status; track++)
-        status = road_classify(end - first, view->stretch.step, view->height[track] + first, from,
-                               to, &view->estimate[track], error);
+    for (int track = 0; track < ROAD_TRACKS && view->classified && !status; track++) {
+        const road_record record = {.count = end - first,
+                                    .step = view->stretch.step,
+                                    .height = view->height[track] + first,
+                                    .from = from,
+                                    .to = to};
+        status = road_classify(&record, &view->estimate[track], error);
+    }
     return status;
 }
 
@@ -120,18 +125,22 @@ static ld_status fill(ld_road_view *view, ld_error *error)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for %zu points", view->count);
     for (size_t i = 0; i < view->count; i++)
         view->x[i] = s->from + (double)i * s->step;
+    const road_places places = {s->from, s->step, view->count};
     ld_status status = road_build(view->model, s->from, s->from, &self, error);
     for (int track = 0; track < ROAD_TRACKS && !status; track++) {
         view->height[track] = view->x + (size_t)(track + 1) * view->count;
-        status = road_profile(self, (road_track)track, s->from, s->step, view->count,
-                              view->height[track], error);
+        status = road_profile(self, (road_track)track, &places, view->height[track], error);
     }
     road_free(self);
     set_bands(view);
+    const spectrum_series tracks = {view->count, s->step, view->height[ROAD_LEFT],
+                                    view->height[ROAD_RIGHT]};
+    const spectrum_bands bands = {.count = view->bands,
+                                  .edge = view->edge,
+                                  .aa = view->density[ROAD_LEFT],
+                                  .bb = view->density[ROAD_RIGHT]};
     if (!status)
-        status = spectrum_in_bands(
-            view->count, s->step, view->height[ROAD_LEFT], view->height[ROAD_RIGHT], view->bands,
-            view->edge, view->density[ROAD_LEFT], view->density[ROAD_RIGHT], NULL, error);
+        status = spectrum_in_bands(&tracks, &bands, error);
     if (!status)
         status = classify(view, error);
     return status;

@@ -155,8 +155,11 @@ static ld_status fill_turbulence(ld_wind_view *view, const turbulence *rough, ld
     for (size_t i = 0; i <= view->bands; i++)
         cycles[i] = view->edge[i] / TWO_PI;
     for (int axis = 0; axis < AXES && !status; axis++) {
-        status = spectrum_in_bands(line->count, view->section.step, line->v[axis], line->v[axis],
-                                   view->bands, cycles, view->density[axis], NULL, NULL, error);
+        const spectrum_series series = {line->count, view->section.step, line->v[axis],
+                                        line->v[axis]};
+        const spectrum_bands bands = {
+            .count = view->bands, .edge = cycles, .aa = view->density[axis]};
+        status = spectrum_in_bands(&series, &bands, error);
         for (size_t i = 0; i < view->bands; i++)
             view->density[axis][i] /= TWO_PI;
     }

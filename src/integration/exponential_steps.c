@@ -320,9 +320,10 @@ static bool renew_jacobian(exponential_steps *self)
 static int try_steps(exponential_steps *self, int64_t at, double left, double *error)
 {
     int rung = fitting_rung(self, at, left);
+    const exponential_start start = {self->t, self->y, self->slope, self->drift};
+    const exponential_end end = {self->y_end, self->slope_end, self->error};
     while (rung < RUNGS) {
-        bool failed = exponential_step(self->part->steps, rung, self->t, self->y, self->slope,
-                                       self->drift, self->y_end, self->slope_end, self->error);
+        bool failed = exponential_step(self->part->steps, rung, &start, &end);
         *error = failed ? INFINITY : size_of_error(self);
         if (*error <= 1)
             break;

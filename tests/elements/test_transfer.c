@@ -69,8 +69,9 @@ static void test_rigid_body_is_symplectic(void **state)
     for (int i = 0; i < CASES; i++) {
         transfer_matrix U;
         rigid_body body = draw_body(&seed);
-        v3 r = draw_v3(&seed, 1), w = draw_v3(&seed, 5), g = draw_v3(&seed, 10);
-        rigid_body_transfer(&U, &body, r, w, g, draw_v3(&seed, 20), draw_v3(&seed, 20));
+        body.output = draw_v3(&seed, 1);
+        v3 w = draw_v3(&seed, 5), g = draw_v3(&seed, 10);
+        rigid_body_transfer(&U, &body, w, g, draw_v3(&seed, 20), draw_v3(&seed, 20));
         error = fmax(error, symplectic_error(&U));
         det = fmax(det, fabs(determinant(&U) - 1));
     }
@@ -91,7 +92,8 @@ static void test_rigid_body_obeys_newton_and_euler(void **state)
         body.inertia = m3_sub(J, m3_scale(body.mass, m3_mul(c, c)));
         v3 r = draw_v3(&seed, 1), w = draw_v3(&seed, 5), g = draw_v3(&seed, 10);
         v3 f = draw_v3(&seed, 20), m_I = draw_v3(&seed, 20);
-        rigid_body_transfer(&U, &body, r, w, g, f, m_I);
+        body.output = r;
+        rigid_body_transfer(&U, &body, w, g, f, m_I);
 
         double z_I[13], z_O[13];
         for (int k = 0; k < 12; k++)
@@ -243,7 +245,8 @@ static void test_six_speeds_are_the_rigid_body(void **state)
         v3_store(h, v3_scale(-b.mass, v3_cross(w, v3_cross(w, b.center))));
         v3_store(h + 3, v3_neg(v3_cross(w, m3_apply(b.inertia, w))));
         flexible_body body = {6, M, h, NULL, L_I, L_O, gamma_I, gamma_O};
-        rigid_body_transfer(&rigid, &b, r, w, v3_zero(), v3_zero(), v3_zero());
+        b.output = r;
+        rigid_body_transfer(&rigid, &b, w, v3_zero(), v3_zero(), v3_zero());
         assert_int_equal(flexible_body_transfer(&flexible, &body, NULL, NULL), LD_OK);
         for (int j = 0; j < 13; j++)
             for (int k = 0; k < 14; k++)
@@ -262,8 +265,8 @@ static void test_product_is_the_chain(void **state)
     for (int i = 0; i < CASES; i++) {
         transfer_matrix tail, tube, both;
         rigid_body b = draw_body(&seed);
-        rigid_body_transfer(&tail, &b, draw_v3(&seed, 1), draw_v3(&seed, 2), v3_zero(), v3_zero(),
-                            v3_zero());
+        b.output = draw_v3(&seed, 1);
+        rigid_body_transfer(&tail, &b, draw_v3(&seed, 2), v3_zero(), v3_zero(), v3_zero());
         draw_flexible(&x, 12, &seed);
         flexible_body body = view(&x, 1);
         assert_int_equal(flexible_body_transfer(&tube, &body, NULL, NULL), LD_OK);
@@ -329,7 +332,8 @@ static void test_tube_is_symplectic(void **state)
             q[i] = 0.05 * draw(&seed) / (1 + i * i);
             q_dot[i] = draw(&seed);
         }
-        tube_dynamics_assemble(&tube, w, q, q_dot, draw_v3(&seed, 10), M, h);
+        const tube_motion motion = {w, draw_v3(&seed, 10), q, q_dot};
+        tube_dynamics_assemble(&tube, &motion, M, h);
         tube_section(&tube, 0, w, q, q_dot, &rear);
         tube_section(&tube, tube.length, w, q, q_dot, &tip);
         flexible_body body = {.n = 6 + modes,

@@ -182,7 +182,7 @@ static void check_equation_of_motion(void)
             q[i] = 0.3 * draw(&seed);
             q_dot[i] = 2 * draw(&seed);
         }
-        tube_dynamics_assemble(&tube, w, q, q_dot, g, M, h);
+        tube_dynamics_assemble(&tube, &(tube_motion){w, g, q, q_dot}, M, h);
 
         for (int k = 0; k < 2 * POINTS; k++) {
             double dx, x = station(k, &dx), dm = line_mass * dx, t = 2e-3;

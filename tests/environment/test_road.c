@@ -90,7 +90,8 @@ static void compare_with_definition(const char *name, const ld_road *model)
         error[1] = fmax(error[1], fabs(slope - defined_slope));
     }
     double heights[PLACES], slope;
-    assert_int_equal(road_profile(self, ROAD_RIGHT, -30, 0.3, PLACES, heights, NULL), LD_OK);
+    const road_places places = {-30, 0.3, PLACES};
+    assert_int_equal(road_profile(self, ROAD_RIGHT, &places, heights, NULL), LD_OK);
     for (int i = 0; i < PLACES; i++) {
         double height = defined_height(model, ROAD_RIGHT, -30 + 0.3 * i, &slope);
         profile = fmax(profile, fabs(heights[i] - height));

@@ -20,14 +20,16 @@ static void road_of(int iso_class, int seed)
                      .wavelengths = {0.3, 100}};
     road *self;
     assert_int_equal(road_build(&model, 0, 0, &self, NULL), LD_OK);
-    assert_int_equal(road_profile(self, ROAD_LEFT, 0, step, SAMPLES, height, NULL), LD_OK);
+    const road_places places = {0, step, SAMPLES};
+    assert_int_equal(road_profile(self, ROAD_LEFT, &places, height, NULL), LD_OK);
     road_free(self);
 }
 
 static road_estimate classify(size_t count, double from, double to)
 {
     road_estimate estimate;
-    assert_int_equal(road_classify(count, step, height, from, to, &estimate, NULL), LD_OK);
+    const road_record record = {count, step, height, from, to};
+    assert_int_equal(road_classify(&record, &estimate, NULL), LD_OK);
     return estimate;
 }
 

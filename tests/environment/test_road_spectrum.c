@@ -16,8 +16,9 @@ static void profiles(const ld_road *model)
 {
     road *self;
     assert_int_equal(road_build(model, 0, 0, &self, NULL), LD_OK);
-    assert_int_equal(road_profile(self, ROAD_LEFT, -1000, step, SAMPLES, left, NULL), LD_OK);
-    assert_int_equal(road_profile(self, ROAD_RIGHT, -1000, step, SAMPLES, right, NULL), LD_OK);
+    const road_places places = {-1000, step, SAMPLES};
+    assert_int_equal(road_profile(self, ROAD_LEFT, &places, left, NULL), LD_OK);
+    assert_int_equal(road_profile(self, ROAD_RIGHT, &places, right, NULL), LD_OK);
     road_free(self);
 }
 
@@ -88,13 +89,16 @@ static void test_spectrum_and_coherence(void **state)
                          .wavelengths = {0.3, 100}};
         profiles(&model);
         double aa[OCTAVES], bb[OCTAVES];
-        spectrum_in_bands(SAMPLES, step, left, right, OCTAVES, edge, aa, bb, NULL, NULL);
+        const spectrum_series tracks = {SAMPLES, step, left, right};
+        const spectrum_bands octaves = {OCTAVES, edge, .aa = aa, .bb = bb};
+        spectrum_in_bands(&tracks, &octaves, NULL);
         for (int i = 0; i < OCTAVES; i++) {
             auto_sum[ROAD_LEFT][i] += aa[i] / SEEDS;
             auto_sum[ROAD_RIGHT][i] += bb[i] / SEEDS;
         }
         double near_aa[7], near_ab[7];
-        spectrum_in_bands(SAMPLES, step, left, right, 7, around, near_aa, NULL, near_ab, NULL);
+        const spectrum_bands near_by = {7, around, .aa = near_aa, .ab = near_ab};
+        spectrum_in_bands(&tracks, &near_by, NULL);
         for (int i = 0; i < 4; i++) {
             own[i][seed] = near_aa[2 * i];
             cross[i][seed] = near_ab[2 * i];

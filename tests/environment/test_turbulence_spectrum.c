@@ -46,8 +46,9 @@ static void add(int seed, flown line, int octaves, const double *edge, double su
         double cycles[OCTAVES + 1], density[OCTAVES];
         for (int i = 0; i <= octaves; i++)
             cycles[i] = edge[i] / (2 * acos(-1) * L);
-        spectrum_in_bands((size_t)line.samples, L * line.step, series[j], series[j],
-                          (size_t)octaves, cycles, density, NULL, NULL, NULL);
+        const spectrum_series along = {(size_t)line.samples, L * line.step, series[j], series[j]};
+        const spectrum_bands bands = {(size_t)octaves, cycles, .aa = density};
+        spectrum_in_bands(&along, &bands, NULL);
         // density over cycles/m -> over L Omega
         for (int i = 0; i < octaves; i++)
             sum[j][i] += density[i] / (2 * acos(-1) * L * sigma * sigma * SEEDS);

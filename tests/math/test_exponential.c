@@ -65,7 +65,9 @@ static double go(exponential *self, const oscillators *of, int rung, double t_en
     slope(0, y, f, (void *)of);
     for (int k = 0; k < count; k++) {
         double t = k * exponential_size(self, rung);
-        assert_int_equal(exponential_step(self, rung, t, y, f, drift, y_end, f_end, error), 0);
+        const exponential_start start = {t, y, f, drift};
+        const exponential_end end = {y_end, f_end, error};
+        assert_int_equal(exponential_step(self, rung, &start, &end), 0);
         memcpy(y, y_end, sizeof y_end);
         memcpy(f, f_end, sizeof f_end);
         most = fmax(most, fabs(error[3]));
@@ -184,7 +186,8 @@ static void integrals_are_of_order_four(void **state)
         assert_int_equal(exponential_prepare(self), 0);
         double y[2] = {1, 0}, f[2] = {-1, 1}, drift[2] = {0}, end[2], slope_end[2], error[2];
         for (int k = 0; k < 2 << rung; k++) {
-            exponential_step(self, rung, 0, y, f, drift, end, slope_end, error);
+            exponential_step(self, rung, &(exponential_start){0, y, f, drift},
+                             &(exponential_end){end, slope_end, error});
             memcpy(y, end, sizeof y);
             memcpy(f, slope_end, sizeof f);
         }

@@ -41,7 +41,9 @@ static void test_definition(void **state)
         b[i] = a[i] + draw(&seed);
     }
     fine_edges(edge);
-    assert_int_equal(spectrum_in_bands(COUNT, step, a, b, HALF - 1, edge, aa, bb, ab, NULL), LD_OK);
+    const spectrum_series series = {COUNT, step, a, b};
+    const spectrum_bands bands = {HALF - 1, edge, aa, bb, ab};
+    assert_int_equal(spectrum_in_bands(&series, &bands, NULL), LD_OK);
     for (int m = 1; m < HALF; m++) {
         double complex A = sum_at(a, m), B = sum_at(b, m);
         double scale = 2 * step / (0.375 * COUNT);
@@ -60,7 +62,8 @@ static void test_sine(void **state)
     double a[MANY], edge[2] = {0.001, 1.99}, density;
     for (int i = 0; i < MANY; i++)
         a[i] = sin(2 * acos(-1) * 0.7071 * i * step + 1);
-    spectrum_in_bands(MANY, step, a, a, 1, edge, &density, NULL, NULL, NULL);
+    spectrum_in_bands(&(spectrum_series){MANY, step, a, a},
+                      &(spectrum_bands){1, edge, .aa = &density}, NULL);
     CHECK_NEAR("power of a sine", density * (edge[1] - edge[0]), 0.5, 1.5e-3);
 }
 
@@ -68,7 +71,8 @@ static void test_empty_band(void **state)
 {
     (void)state;
     double a[COUNT] = {1, 2}, edge[2] = {0.0001, 0.0002}, density;
-    spectrum_in_bands(COUNT, step, a, a, 1, edge, &density, NULL, NULL, NULL);
+    spectrum_in_bands(&(spectrum_series){COUNT, step, a, a},
+                      &(spectrum_bands){1, edge, .aa = &density}, NULL);
     assert_true(isnan(density));
 }
 

@@ -123,7 +123,8 @@ static together sums_of(const ld_aerodynamics *built, double mach)
 static air_wrench of(const aerodynamics *built, v3 v, v3 w, v3 c, double mach, bool power)
 {
     size_t interval = 0;
-    return aerodynamics_wrench(built, v, v3_norm(v), w, c, 1.1, mach, power, &interval);
+    const airflow flow = {v, v3_norm(v), w, c, 1.1, mach};
+    return aerodynamics_wrench(built, &flow, power, &interval);
 }
 
 // Without rates the surfaces are the table made from them, at any angle and Mach number; with small

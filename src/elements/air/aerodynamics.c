@@ -82,32 +82,32 @@ LD_INLINE real3 real3_of(v3 a)
     return (real3){a.x, a.y, a.z};
 }
 
-static real_wrench wrench_of(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
-                             double mach, bool power, size_t *interval)
+static real_wrench wrench_of(const aerodynamics *self, const airflow *flow, bool power,
+                             size_t *interval)
 {
+    const real_airflow of_reals = {real3_of(flow->v), flow->speed, real3_of(flow->w),
+                                   real3_of(flow->c), flow->density};
     if (self->model == LD_AERODYNAMICS_BODY)
-        return aerodynamics_of_body(self->drag, real3_of(self->damping), real3_of(v), speed,
-                                    real3_of(w), rho);
-    double k[SURFACES_COLUMNS], held = mach < self->last_mach ? mach : self->last_mach;
+        return aerodynamics_of_body(self->drag, real3_of(self->damping), &of_reals);
+    double k[SURFACES_COLUMNS], mach = flow->mach;
+    double held = mach < self->last_mach ? mach : self->last_mach;
     *interval = curves_interval(&self->table, held, *interval);
     curves_values(&self->table, *interval, held, k);
     if (self->model == LD_AERODYNAMICS_SURFACES) {
         const air_surfaces *of = &self->surfaces;
         const real_surfaces all = {self->half_area, self->diameter, of->slopes, of->acrosses,
                                    of->slope_at,    of->across_at,  of->across};
-        return aerodynamics_of_surfaces(&all, k, k[power], real3_of(v), speed, NULL, real3_of(w),
-                                        real3_of(c), rho);
+        return aerodynamics_of_surfaces(&all, k, k[power], &of_reals, NULL);
     }
     const real_body body = {self->half_area, self->diameter, self->cant, self->crossflow_drag,
                             self->crossflow_at};
-    return aerodynamics_of_coefficients(&body, k, k[power], real3_of(v), speed, real3_of(w),
-                                        real3_of(c), rho);
+    return aerodynamics_of_coefficients(&body, k, k[power], &of_reals);
 }
 
-air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
-                               double mach, bool power, size_t *interval)
+air_wrench aerodynamics_wrench(const aerodynamics *self, const airflow *flow, bool power,
+                               size_t *interval)
 {
-    real_wrench out = wrench_of(self, v, speed, w, c, rho, mach, power, interval);
+    real_wrench out = wrench_of(self, flow, power, interval);
     return (air_wrench){{out.f.x, out.f.y, out.f.z}, {out.m.x, out.m.y, out.m.z}};
 }
 

@@ -55,11 +55,19 @@ typedef struct air_center {
 // At the Mach number, held at the table's last.
 air_center aerodynamics_center(const aerodynamics *self, double mach);
 
-// v: velocity [m/s] through the air of the mass centre c [m from O1], w: angular velocity [rad/s],
-// rho: density [kg/m3], mach: Mach number, held at the table's last; power: the thrust table has
-// not ended; interval: of the table, kept between calls. All in the same axes, of B or of a frame
-// that differs from B by a roll.
-air_wrench aerodynamics_wrench(const aerodynamics *self, v3 v, double speed, v3 w, v3 c, double rho,
-                               double mach, bool power, size_t *interval);
+// How the rocket moves through the air; all in the same axes, of B or of a frame that differs from
+// B by a roll.
+typedef struct airflow {
+    v3 v;           // [m/s] velocity through the air of the mass centre
+    double speed;   // |v|
+    v3 w;           // [rad/s] angular velocity
+    v3 c;           // [m] the mass centre, from O1
+    double density; // [kg/m3]
+    double mach;    // held at the table's last
+} airflow;
+
+// power: the thrust table has not ended; interval: of the table, kept between calls.
+air_wrench aerodynamics_wrench(const aerodynamics *self, const airflow *flow, bool power,
+                               size_t *interval);
 
 #endif

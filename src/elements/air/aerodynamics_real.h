@@ -10,13 +10,20 @@ typedef struct real_wrench {
     real3 f, m;
 } real_wrench;
 
-// v: velocity [m/s] through the air of the mass centre c [m from O1], w: angular velocity [rad/s],
-// rho: density [kg/m3], all in the same axes, of B or of a frame that differs from B by a roll.
-LD_INLINE real_wrench aerodynamics_of_body(real drag, real3 damping, real3 v, real speed, real3 w,
-                                           real rho)
+// How the rocket moves through the air, as in `airflow`.
+typedef struct real_airflow {
+    real3 v;
+    real speed;
+    real3 w, c;
+    real density;
+} real_airflow;
+
+LD_INLINE real_wrench aerodynamics_of_body(real drag, real3 damping, const real_airflow *flow)
 {
-    real3 turned = {damping.x * w.x, damping.y * w.y, damping.z * w.z};
-    return (real_wrench){real3_scale(-rho * drag * speed, v), real3_scale(rho * speed, turned)};
+    real rho = flow->density, speed = flow->speed;
+    real3 w = flow->w, turned = {damping.x * w.x, damping.y * w.y, damping.z * w.z};
+    return (real_wrench){real3_scale(-rho * drag * speed, flow->v),
+                         real3_scale(rho * speed, turned)};
 }
 
 // As in `aerodynamics`.
@@ -26,8 +33,10 @@ typedef struct real_body {
 
 // k: the table's coefficients at the Mach number; drag: the first or the second of them.
 LD_INLINE real_wrench aerodynamics_of_coefficients(const real_body *self, const real *k, real drag,
-                                                   real3 v, real speed, real3 w, real3 c, real rho)
+                                                   const real_airflow *flow)
 {
+    real3 v = flow->v, w = flow->w, c = flow->c;
+    real rho = flow->density, speed = flow->speed;
     // force of the coefficients at the centre of pressure, drag of the lateral speed where it acts
     real q = rho * self->half_area * speed, half = 0.5 * self->diameter;
     real side = -q * k[2];
@@ -63,9 +72,10 @@ LD_INLINE real3 velocity_at(real3 v_0, real3 v_1, real x, const real3 *shear)
 // NULL: none. Axial force and roll moment go with the speed of the mass centre, each lateral force
 // with the velocity where it acts.
 LD_INLINE real_wrench aerodynamics_of_surfaces(const real_surfaces *self, const real *k, real drag,
-                                               real3 v, real speed, const real3 *shear, real3 w,
-                                               real3 c, real rho)
+                                               const real_airflow *flow, const real3 *shear)
 {
+    real3 v = flow->v, w = flow->w, c = flow->c;
+    real rho = flow->density, speed = flow->speed;
     real q = rho * self->half_area, qd = q * speed * self->diameter;
     real3 v_0 = real3_sub(v, real3_cross(w, c)), v_1 = {real_all(0), w.z, -w.y};
     // sums of the lateral forces, and of them times x

@@ -15,13 +15,17 @@ LD_INLINE void open_air_add(launching_instant *now)
     // velocity of the mass centre, and through the air in B
     v3 v_C = v3_add(rocket->v_O1, v3_cross(rocket->w_B, c));
     v3 slip = v3_sub(v_C, m3_apply_transposed(now->tube.A_IR, about->v));
-    double speed = v3_norm(slip), mach = speed / about->speed_of_sound;
+    double speed = v3_norm(slip);
+    const airflow flow = {.v = m3_apply_transposed(rocket->A_RB, slip),
+                          .speed = speed,
+                          .w = m3_apply_transposed(rocket->A_RB, rocket->w_B),
+                          .c = now->input->mass.c,
+                          .density = about->density,
+                          .mach = speed / about->speed_of_sound};
     air_wrench wrench =
-        aerodynamics_wrench(now->input->aerodynamics, m3_apply_transposed(rocket->A_RB, slip),
-                            speed, m3_apply_transposed(rocket->A_RB, rocket->w_B),
-                            now->input->mass.c, about->density, mach, now->input->power, &interval);
+        aerodynamics_wrench(now->input->aerodynamics, &flow, now->input->power, &interval);
     v3 f = m3_apply(rocket->A_RB, wrench.f), m = m3_apply(rocket->A_RB, wrench.m);
-    out->air_mach = mach;
+    out->air_mach = flow.mach;
     out->air_force = f;
     out->air_moment = m;
     out->power[POWER_AIR] = v3_dot(f, v_C) + v3_dot(m, rocket->w_B);

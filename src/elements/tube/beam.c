@@ -114,7 +114,8 @@ void beam_free(beam *self, bool last)
 void beam_move(beam *self, v3 w, const double *q, const double *q_dot)
 {
     self->w = w;
-    tube_dynamics_assemble(&self->tube, w, q, q_dot, v3_zero(), self->M, self->h);
+    const tube_motion motion = {w, v3_zero(), q, q_dot};
+    tube_dynamics_assemble(&self->tube, &motion, self->M, self->h);
     for (int i = 0; i < self->output_count; i++)
         tube_section(&self->tube, self->output[i].station, w, q, q_dot, &self->output[i].section);
 }

@@ -5,10 +5,10 @@
 
 #include "math/matrices/dense.h"
 
-void rigid_body_transfer(transfer_matrix *U, const rigid_body *body, v3 r, v3 w, v3 g, v3 f, v3 m_I)
+void rigid_body_transfer(transfer_matrix *U, const rigid_body *body, v3 w, v3 g, v3 f, v3 m_I)
 {
     double m = body->mass;
-    v3 c = body->center;
+    v3 c = body->center, r = body->output;
     m3 r_skew = m3_skew(r), mc_skew = m3_scale(m, m3_skew(c));
     transfer_identity(U);
 

@@ -11,12 +11,12 @@ typedef struct rigid_body {
     double mass; // [kg]
     v3 center;   // [m] r_IC: from I to the mass centre
     m3 inertia;  // [kg m2] about I
+    v3 output;   // [m] r_IO: from I to the output point
 } rigid_body;
 
-// U of a rigid body with output point at r_IO [m], angular velocity w [rad/s], gravity g [m/s2] and
-// an applied wrench: force f [N] and moment m_I about I [N m].
-void rigid_body_transfer(transfer_matrix *U, const rigid_body *body, v3 r_IO, v3 w, v3 g, v3 f,
-                         v3 m_I);
+// U of a rigid body of angular velocity w [rad/s] with gravity g [m/s2] and an applied wrench:
+// force f [N] and moment m_I about I [N m].
+void rigid_body_transfer(transfer_matrix *U, const rigid_body *body, v3 w, v3 g, v3 f, v3 m_I);
 
 // The largest number of speeds of a flexible body: six of its frame and its modes.
 enum { TRANSFER_SPEEDS = 80 };

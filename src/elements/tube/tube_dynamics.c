@@ -125,27 +125,35 @@ static void assemble_mass(const flexible_tube *tube, const integrals *value, dou
             M[j * n + i] = M[i * n + j];
 }
 
-// Modal forces of one family of shapes in direction `axis`: centrifugal, Coriolis, gravity.
-// `moment` holds int p_a shape dm, `along` int shape u_b dm for the two directions b != axis.
-static void assemble_modal(double *h, int count, int axis, v3 w, v3 g, const double *constant,
-                           const double *moment[3], const double *along[3])
+// One family of shapes, in direction `axis`, with its integrals.
+typedef struct shape_family {
+    int count, axis;
+    const double *constant;  // int shape dm
+    const double *moment[3]; // int p_a shape dm
+    const double *along[3];  // int shape u_b dm, b != axis
+} shape_family;
+
+// Forces on its modes: centrifugal, Coriolis, gravity.
+static void assemble_modal(const shape_family *of, const tube_motion *motion, double *h)
 {
+    v3 w = motion->w, g = motion->g;
     double w_of[3] = {w.x, w.y, w.z}, g_of[3] = {g.x, g.y, g.z};
-    int next = (axis + 1) % 3, last = (axis + 2) % 3;
-    for (int i = 0; i < count; i++) {
-        double sum = constant[i] * g_of[axis] + v3_norm2(w) * moment[axis][i];
+    int axis = of->axis, next = (axis + 1) % 3, last = (axis + 2) % 3;
+    for (int i = 0; i < of->count; i++) {
+        double sum = of->constant[i] * g_of[axis] + v3_norm2(w) * of->moment[axis][i];
         for (int b = 0; b < 3; b++)
-            sum -= w_of[axis] * w_of[b] * moment[b][i];
-        sum -= 2 * (w_of[next] * along[last][i] - w_of[last] * along[next][i]);
+            sum -= w_of[axis] * w_of[b] * of->moment[b][i];
+        sum -= 2 * (w_of[next] * of->along[last][i] - w_of[last] * of->along[next][i]);
         h[i] += sum;
     }
 }
 
 // Those of the bending modes of a plane.
-static void assemble_plane(const flexible_tube *tube, const integrals *value, int plane, v3 w, v3 g,
-                           const double *q_dot, double *h)
+static void assemble_plane(const flexible_tube *tube, const integrals *value, int plane,
+                           const tube_motion *motion, double *h)
 {
     parts k = parts_of(tube);
+    const double *q_dot = motion->q_dot;
     int own = plane == PLANE_Y ? k.y : k.z, other = plane == PLANE_Y ? k.z : k.y;
     double u_x[LD_NB] = {0}, u_other[LD_NB];
     for (int i = 0; i < k.na; i++)
@@ -153,10 +161,13 @@ static void assemble_plane(const flexible_tube *tube, const integrals *value, in
             u_x[j] += tube->AB[plane][i][j] * q_dot[k.a + i];
     cross_shapes(tube, plane, q_dot + other, u_other);
     const double(*bend)[LD_NB] = value->bend[plane];
-    const double *moment[3] = {bend[0], bend[1], bend[2]};
-    const double *along[3] = {u_x, plane == PLANE_Y ? q_dot + k.y : u_other,
-                              plane == PLANE_Y ? u_other : q_dot + k.z};
-    assemble_modal(h + 6 + own, k.nb, 1 + plane, w, g, tube->ct[plane], moment, along);
+    const shape_family bending = {.count = k.nb,
+                                  .axis = 1 + plane,
+                                  .constant = tube->ct[plane],
+                                  .moment = {bend[0], bend[1], bend[2]},
+                                  .along = {u_x, plane == PLANE_Y ? q_dot + k.y : u_other,
+                                            plane == PLANE_Y ? u_other : q_dot + k.z}};
+    assemble_modal(&bending, motion, h + 6 + own);
 }
 
 // Stiffness and damping of one plane.
@@ -167,10 +178,12 @@ static void add_bending(const flexible_tube *tube, int plane, const double *q, c
         h[i] -= tube->om2_b[plane][i] * q[i] + tube->dmp_b[plane][i] * q_dot[i];
 }
 
-static void assemble_forces(const flexible_tube *tube, const integrals *value, v3 w,
-                            const double *q, const double *q_dot, v3 g, double *h)
+static void assemble_forces(const flexible_tube *tube, const integrals *value,
+                            const tube_motion *motion, double *h)
 {
     parts k = parts_of(tube);
+    v3 w = motion->w, g = motion->g;
+    const double *q = motion->q, *q_dot = motion->q_dot;
     memset(h, 0, (size_t)(6 + k.count) * sizeof *h);
 
     // translation: -(w x (w x S) + 2 w x Ct q_dot) + m g
@@ -193,11 +206,15 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value, v
         stretch_u_y[i] = dot(k.nb, tube->AB[PLANE_Y][i], q_dot + k.y);
         stretch_u_z[i] = dot(k.nb, tube->AB[PLANE_Z][i], q_dot + k.z);
     }
-    const double *stretch[3] = {value->stretch[0], value->stretch[1], value->stretch[2]};
-    const double *stretch_u[3] = {q_dot + k.a, stretch_u_y, stretch_u_z};
-    assemble_plane(tube, value, PLANE_Y, w, g, q_dot, h);
-    assemble_plane(tube, value, PLANE_Z, w, g, q_dot, h);
-    assemble_modal(h + 6 + k.a, k.na, 0, w, g, tube->at, stretch, stretch_u);
+    const shape_family stretch = {
+        .count = k.na,
+        .axis = 0,
+        .constant = tube->at,
+        .moment = {value->stretch[0], value->stretch[1], value->stretch[2]},
+        .along = {q_dot + k.a, stretch_u_y, stretch_u_z}};
+    assemble_plane(tube, value, PLANE_Y, motion, h);
+    assemble_plane(tube, value, PLANE_Z, motion, h);
+    assemble_modal(&stretch, motion, h + 6 + k.a);
 
     // stiffness and damping
     add_bending(tube, PLANE_Y, q + k.y, q_dot + k.y, h + 6 + k.y);
@@ -208,13 +225,13 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value, v
         h[6 + k.a + i] -= tube->om2_a[i] * q[k.a + i] + tube->dmp_a[i] * q_dot[k.a + i];
 }
 
-void tube_dynamics_assemble(const flexible_tube *tube, v3 w, const double *q, const double *q_dot,
-                            v3 g_R, double *M, double *h)
+void tube_dynamics_assemble(const flexible_tube *tube, const tube_motion *motion, double *M,
+                            double *h)
 {
     integrals value;
-    integrate(tube, q, q_dot, &value);
+    integrate(tube, motion->q, motion->q_dot, &value);
     assemble_mass(tube, &value, M);
-    assemble_forces(tube, &value, w, q, q_dot, g_R, h);
+    assemble_forces(tube, &value, motion, h);
 }
 
 double tube_kinetic_energy(const flexible_tube *tube, v3 v, v3 w, const double *q,

@@ -13,10 +13,17 @@ enum { LD_TUBE_MODES = 2 * LD_NB + LD_NT + LD_NA, LD_TUBE_SPEEDS = 6 + LD_TUBE_M
 // Number of modal coordinates, 2 nb + nt + na.
 int tube_mode_count(const flexible_tube *tube);
 
-// Mass matrix M [n x n, full] and forces h [n], n = 6 + tube_mode_count: inertial, gravity g_R
-// [m/s2, in R], modal stiffness and damping, no wrenches (formulation.md, section 1).
-void tube_dynamics_assemble(const flexible_tube *tube, v3 w, const double *q, const double *q_dot,
-                            v3 g_R, double *M, double *h);
+// How the tube moves and what gravity does to it, in R.
+typedef struct tube_motion {
+    v3 w;                    // [rad/s] of R
+    v3 g;                    // [m/s2]
+    const double *q, *q_dot; // of the modes
+} tube_motion;
+
+// Mass matrix M [n x n, full] and forces h [n], n = 6 + tube_mode_count: inertial, gravity, modal
+// stiffness and damping, no wrenches (formulation.md, section 1).
+void tube_dynamics_assemble(const flexible_tube *tube, const tube_motion *motion, double *M,
+                            double *h);
 
 // Kinetic energy 1/2 eta^T M eta and elastic energy 1/2 q^T K q [J].
 double tube_kinetic_energy(const flexible_tube *tube, v3 v, v3 w, const double *q,

@@ -72,11 +72,11 @@ static void band_means(size_t size, double resolution, const double *re, const d
         mean[i] = m > from ? mean[i] / (double)(m - from) : NAN;
 }
 
-ld_status spectrum_in_bands(size_t count, double step, const double *a, const double *b,
-                            size_t bands, const double *edge, double *aa, double *bb, double *ab,
+ld_status spectrum_in_bands(const spectrum_series *series, const spectrum_bands *bands,
                             ld_error *error)
 {
-    size_t size = 2;
+    size_t size = 2, count = series->count;
+    double step = series->step;
     while (size < count)
         size *= 2;
     double *re = calloc(3 * size, sizeof *re), *im = re + size, *cosine = re + 2 * size;
@@ -85,12 +85,12 @@ ld_status spectrum_in_bands(size_t count, double step, const double *a, const do
     double *sine = cosine + size / 2;
     for (size_t i = 0; i < size / 2; i++)
         sincos(TWO_PI * (double)i / (double)size, sine + i, cosine + i);
-    double scale = 2 * step / taper(count, a, b, re, im);
+    double scale = 2 * step / taper(count, series->a, series->b, re, im);
     transform(size, re, im, cosine, sine);
-    double *out[3] = {aa, bb, ab};
-    for (size_t band = 0; band < bands; band++) {
+    double *out[3] = {bands->aa, bands->bb, bands->ab};
+    for (size_t band = 0; band < bands->count; band++) {
         double mean[3];
-        band_means(size, 1 / ((double)size * step), re, im, edge + band, mean);
+        band_means(size, 1 / ((double)size * step), re, im, bands->edge + band, mean);
         for (int i = 0; i < 3; i++)
             if (out[i])
                 out[i][band] = scale * mean[i];
@@ -125,11 +125,12 @@ ld_status spectrum_of_segments(size_t count, double step, const double *a, size_
         edge[m] = ((double)m + 0.5) / ((double)size * step);
         density[m] = m ? 0 : NAN;
     }
+    const spectrum_series series = {size, step, segment, segment};
+    const spectrum_bands bins = {.count = half - 1, .edge = edge, .aa = own};
     ld_status status = LD_OK;
     for (size_t i = 0; i < segments && !status; i++) {
         take_line_off(size, a + i * half, segment);
-        status =
-            spectrum_in_bands(size, step, segment, segment, half - 1, edge, own, NULL, NULL, error);
+        status = spectrum_in_bands(&series, &bins, error);
         for (size_t m = 1; m < half && !status; m++)
             density[m] += own[m - 1] / (double)segments;
     }

@@ -423,18 +423,24 @@ static void apply_matrix(const exponential *self, const double *x, double *y)
 
 // Where the step has begun, and what its stages have in common.
 typedef struct begin {
-    double t, h;
-    const double *y, *y_dot, *drift;
+    exponential_start at;
+    double h;
     double *g; // y_dot - drift, as a vector
 } begin;
+
+// What they yield: the sum of the remainders in the middle, and that of the last stage less that
+// sum; phi_1 g over half the step and over all of it.
+typedef struct stages {
+    double *sum, *last, *half, *whole;
+} stages;
 
 // The state that is `w` away from y and the drift since t, and its slope.
 static int evaluate(exponential *self, const begin *from, double since, const double *w, double *y,
                     double *y_dot)
 {
     for (int i = 0; i < self->settings.n; i++)
-        y[i] = from->y[i] + (since * from->drift[i] + w[self->place[i]]);
-    return self->settings.f(from->t + since, y, y_dot, self->settings.self);
+        y[i] = from->at.y[i] + (since * from->at.drift[i] + w[self->place[i]]);
+    return self->settings.f(from->at.t + since, y, y_dot, self->settings.self);
 }
 
 // The remainder f(y + drift + w) - f(y) - L w from the slope found there.
@@ -444,7 +450,7 @@ static void find_remainder(const exponential *self, const begin *from, const dou
     apply_matrix(self, w, remainder);
     for (int i = 0; i < self->settings.n; i++) {
         int at = self->place[i];
-        remainder[at] = (slope[i] - from->y_dot[i]) - remainder[at];
+        remainder[at] = (slope[i] - from->at.y_dot[i]) - remainder[at];
     }
 }
 
@@ -457,11 +463,9 @@ static int find_stage(exponential *self, const begin *from, double since, const 
     return 0;
 }
 
-// The stages' remainders: the sum of the two in the middle, and that of the last one less that sum;
-// `half`, `whole`: phi_1 g over half the step and over all of it.
-static int find_stages(exponential *self, int rung, const begin *from, double *sum, double *last,
-                       double *half, double *whole)
+static int find_stages(exponential *self, int rung, const begin *from, const stages *to)
 {
+    double *sum = to->sum, *last = to->last, *half = to->half, *whole = to->whole;
     double *w = self->vector[0], *a = self->vector[1], h = from->h;
     apply(self, rung + 1, PHI_ONE, from->g, half);
     for (int i = 0; i < self->size; i++)
@@ -486,11 +490,11 @@ static int find_stages(exponential *self, int rung, const begin *from, double *s
     return 0;
 }
 
-// w after h of a rung, in which the remainder is phi_2 and `last` of these; phi_1 g is known.
-static void find_end(const exponential *self, int rung, double h, const double *first,
-                     const double *second, const double *third, double *w)
+// w after a step of a rung, in which the remainder is phi_2 and `last` of these; phi_1 g is known.
+static void find_end(const exponential *self, int rung, const double *first, const double *second,
+                     const double *third, double *w)
 {
-    double *a = self->vector[1], *b = self->vector[2];
+    double *a = self->vector[1], *b = self->vector[2], h = exponential_size(self, rung);
     apply(self, rung, PHI_TWO, second, a);
     apply(self, rung, LAST, third, b);
     for (int i = 0; i < self->size; i++)
@@ -498,59 +502,62 @@ static void find_end(const exponential *self, int rung, double h, const double *
 }
 
 // The slopes in the middle of the step, for what is in no block.
-static int find_middle(exponential *self, int rung, const begin *from, const double *sum,
-                       const double *last, const double *half)
+static int find_middle(exponential *self, int rung, const begin *from, const stages *of)
 {
+    const double *sum = of->sum, *last = of->last;
     double *w = self->vector[0], *second = self->vector[3], *third = self->vector[4];
     for (int i = 0; i < self->size; i++) {
         third[i] = last[i] / 4;
         second[i] = (sum[i] - last[i]) / 2 + third[i];
     }
-    find_end(self, rung + 1, from->h / 2, half, second, third, w);
+    find_end(self, rung + 1, of->half, second, third, w);
     return evaluate(self, from, from->h / 2, w, self->y, self->middle);
 }
 
-static void keep_course(exponential *self, int rung, const begin *from, const double *sum,
-                        const double *last)
+static void keep_course(exponential *self, int rung, const exponential_start *start,
+                        const stages *of)
 {
+    const double *sum = of->sum, *last = of->last;
     exponential_course *course = &self->course;
     self->found = false;
     course->rung = rung;
     for (int i = 0; i < self->settings.n; i++) {
         int at = self->place[i];
-        course->y[i] = from->y[i];
-        course->y_dot[i] = from->y_dot[i];
-        course->drift[i] = from->drift[i];
+        course->y[i] = start->y[i];
+        course->y_dot[i] = start->y_dot[i];
+        course->drift[i] = start->drift[i];
         course->linear[i] = sum[at] - last[at];
         course->quadratic[i] = 2 * last[at];
     }
 }
 
-int exponential_step(exponential *self, int rung, double t, const double *y, const double *y_dot,
-                     const double *drift, double *y_end, double *slope_end, double *error)
+int exponential_step(exponential *self, int rung, const exponential_start *start,
+                     const exponential_end *end)
 {
-    double *w = self->vector[0], *end = self->vector[1], *half = self->vector[5];
-    double *whole = self->vector[6], *sum = self->vector[7], *last = self->vector[8];
-    double h = exponential_size(self, rung);
-    const begin from = {t, h, y, y_dot, drift, self->vector[9]};
+    double *w = self->vector[0], *remainder = self->vector[1], h = exponential_size(self, rung);
+    const stages of = {.sum = self->vector[7],
+                       .last = self->vector[8],
+                       .half = self->vector[5],
+                       .whole = self->vector[6]};
+    const begin from = {*start, h, self->vector[9]};
+    const double *y = start->y, *y_dot = start->y_dot;
     for (int i = 0; i < self->settings.n; i++)
-        from.g[self->place[i]] = y_dot[i] - drift[i];
-    if (find_stages(self, rung, &from, sum, last, half, whole) ||
-        find_middle(self, rung, &from, sum, last, half))
+        from.g[self->place[i]] = y_dot[i] - start->drift[i];
+    if (find_stages(self, rung, &from, &of) || find_middle(self, rung, &from, &of))
         return -1;
-    find_end(self, rung, h, whole, sum, last, w);
-    if (evaluate(self, &from, h, w, y_end, slope_end))
+    find_end(self, rung, of.whole, of.sum, of.last, w);
+    if (evaluate(self, &from, h, w, end->y, end->y_dot))
         return -1;
 
     // the slope at the end in place of that of the last stage gives a solution of order 3
-    find_remainder(self, &from, w, slope_end, end);
+    find_remainder(self, &from, w, end->y_dot, remainder);
     for (int i = 0; i < self->settings.n; i++) {
         int at = self->place[i];
-        error[i] = h / 6 * (sum[at] + last[at] - end[at]);
+        end->error[i] = h / 6 * (of.sum[at] + of.last[at] - remainder[at]);
         if (at >= self->quadratures)
-            y_end[i] = y[i] + h / 6 * (y_dot[i] + 4 * self->middle[i] + slope_end[i]);
+            end->y[i] = y[i] + h / 6 * (y_dot[i] + 4 * self->middle[i] + end->y_dot[i]);
     }
-    keep_course(self, rung, &from, sum, last);
+    keep_course(self, rung, start, &of);
     return 0;
 }
 

@@ -36,11 +36,21 @@ int exponential_prepare(exponential *self);
 
 double exponential_size(const exponential *self, int rung);
 
-// A step from (t, y), where the slope is y_dot, all [n]. `drift` [n]: a motion with constant rates
-// in which f is the same, e.g. the travel of all there is; L is applied to what moves against it.
-// y_end, slope_end: at the step's end; error [n]: of y_end. Other than 0: f failed.
-int exponential_step(exponential *self, int rung, double t, const double *y, const double *y_dot,
-                     const double *drift, double *y_end, double *slope_end, double *error);
+// Where a step begins: y with its slope y_dot, and `drift`, a motion with constant rates in which f
+// is the same, e.g. the travel of all there is; L is applied to what moves against it.
+typedef struct exponential_start {
+    double t;
+    const double *y, *y_dot, *drift; // [n]
+} exponential_start;
+
+// Where it ends, with the error of y.
+typedef struct exponential_end {
+    double *y, *y_dot, *error; // [n]
+} exponential_end;
+
+// Fills the arrays of the end. Other than 0: f failed.
+int exponential_step(exponential *self, int rung, const exponential_start *start,
+                     const exponential_end *end);
 
 // What is known within the last step, so that its course can be kept: y, y_dot and drift where it
 // began, the remainder's linear and quadratic part over the step.

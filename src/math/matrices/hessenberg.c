@@ -66,13 +66,20 @@ static void exchange(double *a, double *b)
     *b = before;
 }
 
+// How a row is eliminated: whether it became the pivot, and the factor of the pivot that was taken
+// from the other one.
+typedef struct elimination {
+    bool swapped;
+    double re, im;
+} elimination;
+
 // to := from - m pivot, behind column k.
-LD_ALWAYS_INLINE void subtract(int n, int k, double re, double im, row pivot, row from, row to)
+LD_ALWAYS_INLINE void subtract(int n, int k, elimination m, row pivot, row from, row to)
 {
     for (int j = k + 1; j < n; j++) {
         double p = pivot.re[j], q = pivot.im[j];
-        to.re[j] = from.re[j] - (re * p - im * q);
-        to.im[j] = from.im[j] - (re * q + im * p);
+        to.re[j] = from.re[j] - (m.re * p - m.im * q);
+        to.im[j] = from.im[j] - (m.re * q + m.im * p);
     }
 }
 
@@ -89,29 +96,33 @@ LD_ALWAYS_INLINE void load(const hessenberg *self, double omega, int k, row to)
 
 // Eliminates what stands below element k of the row `now` in the row `next`: the rest into `to`.
 // The larger one is the pivot and stays in `now`.
-LD_ALWAYS_INLINE void eliminate(int n, int k, row now, row next, row to, int count, double *z)
+LD_ALWAYS_INLINE elimination eliminate(int n, int k, row now, row next, row to)
 {
-    double p = now.re[k], q = now.im[k], below = next.re[k], square = p * p + q * q, re = 0, im = 0;
-    bool swapped = square < below * below;
-    if (swapped) {
-        re = p / below;
-        im = q / below;
-        subtract(n, k, re, im, next, now, to);
+    double p = now.re[k], q = now.im[k], below = next.re[k], square = p * p + q * q;
+    if (square < below * below) {
+        elimination m = {true, p / below, q / below};
+        subtract(n, k, m, next, now, to);
         memcpy(now.re + k, next.re + k, (size_t)(n - k) * sizeof(double));
         memcpy(now.im + k, next.im + k, (size_t)(n - k) * sizeof(double));
-    } else {
-        re = square > 0 ? below * p / square : 0;
-        im = square > 0 ? -below * q / square : 0;
-        subtract(n, k, re, im, now, next, to);
+        return m;
     }
+    elimination m = {false, square > 0 ? below * p / square : 0,
+                     square > 0 ? -below * q / square : 0};
+    subtract(n, k, m, now, next, to);
+    return m;
+}
+
+// The same with elements k and k + 1 of the right-hand sides.
+LD_ALWAYS_INLINE void eliminate_sides(int n, int k, elimination m, int count, double *z)
+{
     for (int i = 0; i < count; i++, z += 2 * n) {
         double *x = z + k, *y = z + n + k;
-        if (swapped) {
+        if (m.swapped) {
             exchange(x, x + 1);
             exchange(y, y + 1);
         }
-        x[1] -= re * x[0] - im * y[0];
-        y[1] -= re * y[0] + im * x[0];
+        x[1] -= m.re * x[0] - m.im * y[0];
+        y[1] -= m.re * y[0] + m.im * x[0];
     }
 }
 
@@ -162,7 +173,8 @@ LD_ALWAYS_INLINE int solve(const hessenberg *self, double omega, int count, doub
     load(self, omega, 0, row_at(self, 0));
     for (int k = 0; k + 1 < n; k++) {
         load(self, omega, k + 1, next);
-        eliminate(n, k, row_at(self, k), next, row_at(self, k + 1), count, z);
+        elimination m = eliminate(n, k, row_at(self, k), next, row_at(self, k + 1));
+        eliminate_sides(n, k, m, count, z);
     }
     for (int i = 0; i < count && !bad; i++, z += 2 * n)
         bad = substitute(self, z, z + n);

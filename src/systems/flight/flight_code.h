@@ -69,9 +69,10 @@ LD_INLINE real_wrench jet_damping(const flight_lanes *lanes, const burning *mass
                          real3_scale(real_all(-1), moment)};
 }
 
-// The air at points of C that move with v: density, speed of sound, velocity through it, in C.
+// The air at points of C that move with v, and the velocity through it, in C.
 typedef struct flow {
-    real altitude, density, speed_of_sound;
+    real altitude;
+    real_air air;
     real3 v;
     real xi_dot[2];
 } flow;
@@ -112,29 +113,32 @@ LD_INLINE void look_up_air(const flight_lanes *lanes, flow *out)
             phase->air_interval = interval;
         REAL_LANE(above, lane) = atmosphere_piece(profile, interval, altitude, lane, piece);
     }
-    atmosphere_measured(piece, above, out->altitude, OF(air.density_scale),
-                        OF(air.temperature_offset), &out->density, &out->speed_of_sound);
+    out->air = atmosphere_measured(piece, above, out->altitude, OF(air.density_scale),
+                                   OF(air.temperature_offset));
+}
+
+LD_INLINE real altitude_of(const flight_lanes *lanes, real3 r)
+{
+    if (lanes->system[0]->earth.flat)
+        return OF(earth.altitude) + r.y;
+    const real_ellipsoid round = {OF(earth.a), OF(earth.b), OF(earth.e2)};
+    return earth_altitude_above(&round, r);
 }
 
 LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, const real xi[2])
 {
     const flight_system *first = lanes->system[0];
-    flow out = {.v = v};
-    if (first->earth.flat) {
-        out.altitude = OF(earth.altitude) + r.y;
-    } else {
-        out.altitude = earth_altitude_above(OF(earth.a), OF(earth.b), OF(earth.e2), r);
+    flow out = {.altitude = altitude_of(lanes, r), .v = v};
+    if (!first->earth.flat)
         out.v =
             real3_sub(v, (real3){-OF(earth.rotation) * r.y, OF(earth.rotation) * r.x, real_all(0)});
-    }
     if (first->atmosphere.kind == LD_ATMOSPHERE_US1976) {
-        atmosphere_standard(first->atmosphere.layer, out.altitude, OF(air.density_scale),
-                            OF(air.temperature_offset), &out.density, &out.speed_of_sound);
+        out.air = atmosphere_standard(first->atmosphere.layer, out.altitude, OF(air.density_scale),
+                                      OF(air.temperature_offset));
     } else if (first->atmosphere.kind == LD_ATMOSPHERE_PROFILE) {
         look_up_air(lanes, &out);
     } else {
-        out.density = OF(air.density);
-        out.speed_of_sound = OF(air.speed_of_sound);
+        out.air = (real_air){OF(air.density), OF(air.speed_of_sound)};
     }
     if (first->wind.present)
         take_wind(lanes, t, r, xi, &out);
@@ -196,9 +200,7 @@ LD_INLINE void wind_at_surfaces(const flight_lanes *lanes, real t, real3 r, cons
         real3 place = {k < slopes ? slope_at[k] : across_at[k - slopes], real_all(0), real_all(0)};
         real3 arm = real3_sub(place, rocket->center), more = arm;
         real3 at = real3_add(r, real33_apply(rocket->A, roll(rocket->c, rocket->s, arm)));
-        real altitude = OF(earth.altitude) + at.y;
-        if (!first->earth.flat)
-            altitude = earth_altitude_above(OF(earth.a), OF(earth.b), OF(earth.e2), at);
+        real altitude = altitude_of(lanes, at);
         for (int i = 0; i < LANES; i++) {
             const flight_system *system = lanes->system[i];
             double now = REAL_LANE(t, i);
@@ -214,9 +216,8 @@ LD_INLINE void wind_at_surfaces(const flight_lanes *lanes, real t, real3 r, cons
     }
 }
 
-LD_INLINE real_wrench wrench_of_surfaces(const flight_lanes *lanes, const flow *here,
-                                         const in_flow *rocket, real held, real3 v_B, real speed,
-                                         const real3 *shear)
+LD_INLINE real_wrench wrench_of_surfaces(const flight_lanes *lanes, real held,
+                                         const real_airflow *through, const real3 *shear)
 {
     const air_surfaces *first = &lanes->system[0]->aerodynamics.surfaces;
     real k[SURFACES_COLUMNS];
@@ -232,35 +233,35 @@ LD_INLINE real_wrench wrench_of_surfaces(const flight_lanes *lanes, const flow *
                                REALS(lanes->number, flight_numbers, air.across_at),
                                REALS(lanes->number, flight_numbers, air.across)};
     real drag = real_select(OF(burn.power) != 0.0, k[1], k[0]);
-    return aerodynamics_of_surfaces(&all, k, drag, v_B, speed, shear, rocket->w, rocket->center,
-                                    here->density);
+    return aerodynamics_of_surfaces(&all, k, drag, through, shear);
 }
 
 LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, real t, real3 r, const flow *here,
                                       const in_flow *rocket)
 {
     const flight_system *first = lanes->system[0];
-    real3 v_B = roll(rocket->c, -rocket->s, real33_apply_transposed(rocket->A, here->v));
-    real speed = real3_norm(here->v);
+    const real_airflow through = {
+        .v = roll(rocket->c, -rocket->s, real33_apply_transposed(rocket->A, here->v)),
+        .speed = real3_norm(here->v),
+        .w = rocket->w,
+        .c = rocket->center,
+        .density = here->air.density};
     if (first->aerodynamics.model == LD_AERODYNAMICS_BODY)
-        return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), v_B, speed, rocket->w,
-                                    here->density);
-    real mach = speed / here->speed_of_sound;
+        return aerodynamics_of_body(OF(air.drag), THREE_OF(air.damping), &through);
+    real mach = through.speed / here->air.speed_of_sound;
     real held = real_select(mach < OF(air.last_mach), mach, OF(air.last_mach));
     if (first->aerodynamics.model == LD_AERODYNAMICS_SURFACES) {
         real3 shear[LD_MAX_AIR_SURFACES + SURFACES_ACROSS];
         if (first->feels_shear)
             wind_at_surfaces(lanes, t, r, here, rocket, shear);
-        return wrench_of_surfaces(lanes, here, rocket, held, v_B, speed,
-                                  first->feels_shear ? shear : NULL);
+        return wrench_of_surfaces(lanes, held, &through, first->feels_shear ? shear : NULL);
     }
     real coefficient[AERODYNAMICS_COLUMNS + 1];
     look_up(lanes, held, AERODYNAMICS_COLUMNS, coefficient);
     const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
                             OF(air.crossflow_drag), OF(air.crossflow_at)};
     real drag = real_select(OF(burn.power) != 0.0, coefficient[1], coefficient[0]);
-    return aerodynamics_of_coefficients(&body, coefficient, drag, v_B, speed, rocket->w,
-                                        rocket->center, here->density);
+    return aerodynamics_of_coefficients(&body, coefficient, drag, &through);
 }
 
 // Force of the air brakes, along the rocket's axis.
@@ -274,19 +275,21 @@ LD_INLINE real brakes(const flight_lanes *lanes, real t, real3 r, const real33 *
             system, REAL_LANE(t, i) - lanes->phase[i]->t_ignition, height - system->ground);
     }
     real along = real33_apply_transposed(A, here->v).x;
-    return -0.5 * here->density * area * real3_norm(here->v) * along;
+    return -0.5 * here->air.density * area * real3_norm(here->v) * along;
 }
 
-// What becomes of the rates where the rocket hangs below a parachute: those of a point.
-LD_INLINE void hang_rates(const flight_lanes *lanes, real t, const flow *here, real mass,
-                          real3 gravity, const real *y, real *y_dot)
+// Acceleration of a rocket that hangs below a parachute.
+LD_INLINE real3 fall_below(const flight_lanes *lanes, real t, const flow *here, real mass,
+                           real3 gravity)
 {
-    real_condition hangs = OF(parachute.open) != 0.0;
-    if (!real_any(hangs))
-        return;
     real area = OF(parachute.area) + OF(parachute.slope) * (t - OF(parachute.t0));
-    real drag = 0.5 * here->density * area * real3_norm(here->v) / mass;
-    real3 a = real3_axpy(gravity, -drag, here->v);
+    real drag = 0.5 * here->air.density * area * real3_norm(here->v) / mass;
+    return real3_axpy(gravity, -drag, here->v);
+}
+
+// What becomes of the rates where it hangs: those of a point.
+LD_INLINE void hang_rates(real_condition hangs, real3 a, const real *y, real *y_dot)
+{
     real still[FLIGHT_XI];
     for (int i = 0; i < FLIGHT_XI; i++)
         still[i] = real_all(0);
@@ -361,8 +364,11 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     y_dot[FLIGHT_ROLL] = w_N.x;
     real3_store(y_dot + FLIGHT_W,
                 (real3){alpha.x, alpha.y - w_N.x * w_N.z, alpha.z + w_N.x * w_N.y});
-    if (first->parachutes)
-        hang_rates(lanes, t, &here, mass.mass, gravity, y, y_dot);
+    if (!first->parachutes)
+        return;
+    real_condition hangs = OF(parachute.open) != 0.0;
+    if (real_any(hangs))
+        hang_rates(hangs, fall_below(lanes, t, &here, mass.mass, gravity), y, y_dot);
 }
 
 LD_INLINE void flight_rates_of(const flight_lanes *lanes, const double *t, const double *y,
@@ -445,7 +451,7 @@ LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step 
                         real3_from(y + FLIGHT_V), y + FLIGHT_XI);
     real speed = real3_norm(here.v), mach = real_all(0);
     if (first->atmosphere.kind != LD_ATMOSPHERE_NONE)
-        mach = speed / here.speed_of_sound;
+        mach = speed / here.air.speed_of_sound;
     // the Mach number is greatest within the step, or so far at its end
     real rotation = OF(earth.rotation);
     real_condition slows = real_not(speeds_up(rotation, y, (const real *)step->y_dot));
@@ -457,21 +463,21 @@ LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step 
     real3 axis = {A.a[0][0], A.a[1][0], A.a[2][0]};
     real along = axis.x * here.v.x + axis.y * here.v.y + axis.z * here.v.z;
     real across = real3_norm(real3_cross(axis, here.v));
-    real_condition in_air = here.density > 0.0;
+    real_condition in_air = here.air.density > 0.0;
     if (first->parachutes)
         in_air &= OF(parachute.open) == 0.0;
     real_condition more = in_air & (speed > 0.0) &
                           (across * *REALS(most, flight_extremes, along) >
                            along * *REALS(most, flight_extremes, across));
     // dynamic pressure, acceleration
-    real pressure = 0.5 * here.density * speed * speed;
+    real pressure = 0.5 * here.air.density * speed * speed;
     real_condition denser = pressure > *REALS(most, flight_extremes, pressure);
     real3 a = real3_from((const real *)step->y_dot + FLIGHT_V);
     real square = a.x * a.x + a.y * a.y + a.z * a.z;
     real_condition harder = square > *REALS(most, flight_extremes, acceleration);
     real_condition look = turns_or_lands(lanes, step, here.altitude) | within |
                           pressure_turns(rotation, step, *REALS(most, flight_extremes, density),
-                                         here.density, pressure);
+                                         here.air.density, pressure);
     if (first->aerodynamics.present)
         look |= (faster & (mach > OF(air.last_mach))) | (in_air & (speed > 10.0) & (along < 0.0));
     real_condition done = *(const real *)step->done > 0.0, keep = done & real_not(look);
@@ -485,7 +491,7 @@ LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step 
     KEEP(denser & keep, t_pressure, *(const real *)step->t);
     KEEP(harder & keep, acceleration, square);
     KEEP(harder & keep, t_acceleration, *(const real *)step->t);
-    KEEP(keep, density, here.density);
+    KEEP(keep, density, here.air.density);
 #undef KEEP
     return real_lanes(look & done);
 }

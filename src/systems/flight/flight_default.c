@@ -39,10 +39,10 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
     double along = v3_dot(axis, v), across = v3_norm(v3_cross(axis, v)), speed = v3_norm(v);
     bool has_air = self->atmosphere.kind != LD_ATMOSPHERE_NONE;
     flight_flow out = {.altitude = here.altitude,
-                       .density = here.density,
+                       .density = here.air.density,
                        .airspeed = speed,
-                       .pressure = 0.5 * here.density * speed * speed,
-                       .mach = has_air ? speed / here.speed_of_sound : 0,
+                       .pressure = 0.5 * here.air.density * speed * speed,
+                       .mach = has_air ? speed / here.air.speed_of_sound : 0,
                        .across = across,
                        .along = along,
                        .angle_of_attack = atan2(across, along)};

@@ -75,7 +75,8 @@ void launching_uncouple(const launching_system *self, const launching_input *inp
     out->condition = 0;
     u->n = 6 + at->nq;
     tube_load(lanes, &self->tube, at, state, &now->tube);
-    tube_dynamics_assemble(tube, now->tube.w, q, q_dot, now->tube.g, u->M, u->h);
+    const tube_motion motion = {now->tube.w, now->tube.g, q, q_dot};
+    tube_dynamics_assemble(tube, &motion, u->M, u->h);
     modal_energies(self, state, out);
     supports_add(lanes, &self->supports, &self->tube, now);
     if (input->load)
@@ -196,8 +197,8 @@ void launching_impulse_general(const launching_system *self, const launching_ins
     double B[LD_MAX_CONSTRAINTS + 1][LD_TUBE_SPEEDS], e[LD_MAX_CONSTRAINTS + 1][LD_TUBE_SPEEDS];
     constraint_products D;
     *change = (launching_change){.a = v3_zero()};
-    tube_dynamics_assemble(&self->tube.flexible, now->tube.w, state + at->q, state + at->q_dot,
-                           now->tube.g, M2, h);
+    const tube_motion motion = {now->tube.w, now->tube.g, state + at->q, state + at->q_dot};
+    tube_dynamics_assemble(&self->tube.flexible, &motion, M2, h);
     add_tail(self, &now->tube, n, M2, h);
     if (cholesky_factor(n, M2))
         return;

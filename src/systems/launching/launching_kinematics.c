@@ -70,6 +70,6 @@ double launching_surface_rate(const launching_system *self, const double *state,
     tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
     rocket_load(&self->tube, &self->layout, state, &tube, &rocket, &unused);
     shoe_load(&self->adaptors, &self->tube, &tube, &rocket, i, &shoe);
-    shoe_touch(&tube, &rocket, &shoe);
-    return surface_contact_of(&self->surfaces.surface[k], &rocket, &shoe).rate;
+    shoe_touch touch = shoe_touch_of(&tube, &rocket, &shoe);
+    return surface_contact_of(&self->surfaces.surface[k], &rocket, &touch).rate;
 }

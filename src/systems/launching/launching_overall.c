@@ -84,10 +84,9 @@ static ld_status load_transfer(const launching_system *self, const launching_unc
 {
     const ld_tail *tail = &model_tubes(self->model)->tail;
     rigid_body body = {.mass = tail->mass,
-                       .inertia =
-                           m3_diagonal(tail->inertia[0], tail->inertia[1], tail->inertia[2])};
-    rigid_body_transfer(&transfer->tail, &body, v3_make(-tail->center, 0, 0), u->now.tube.w,
-                        u->now.tube.g, v3_zero(), v3_zero());
+                       .inertia = m3_diagonal(tail->inertia[0], tail->inertia[1], tail->inertia[2]),
+                       .output = v3_make(-tail->center, 0, 0)};
+    rigid_body_transfer(&transfer->tail, &body, u->now.tube.w, u->now.tube.g, v3_zero(), v3_zero());
     for (int i = 0; i < (count ? count : 1); i++) {
         transfer_matrix U;
         flexible_body tube = {.n = u->n,
@@ -147,10 +146,18 @@ __attribute__((noinline)) static bool load_solution(const launching_uncoupled *u
     return true;
 }
 
-// Rows of the overall equation (Eq. 78 of the paper, with the rocket): unknowns are the
+// The overall equation A x = b (Eq. 78 of the paper, with the rocket): unknowns are the
 // accelerations of the tail's end (6) and of the tip (6), y_dot (6) and the constraint forces.
-static void fill_tube_rows(int size, int count, const tube_transfer *transfer, double *A, double *b)
+typedef struct overall_equation {
+    int size, count;                 // unknowns, and of them constraint forces
+    double G[LD_MAX_CONSTRAINTS][6]; // wrench of each constraint on the rocket, with friction
+    double A[MAX_UNKNOWNS * MAX_UNKNOWNS], b[MAX_UNKNOWNS];
+} overall_equation;
+
+static void fill_tube_rows(const tube_transfer *transfer, overall_equation *to)
 {
+    int size = to->size, count = to->count;
+    double *A = to->A, *b = to->b;
     for (int i = 0; i < 12; i++) {
         // at the tip: accelerations as unknown, wrench zero
         int row = i < 6 ? i : i - 6 + TRANSFER_M;
@@ -164,11 +171,11 @@ static void fill_tube_rows(int size, int count, const tube_transfer *transfer, d
     }
 }
 
-static void fill_rocket_rows(int size, int count, const launching_uncoupled *u,
-                             const relative_kinematics *k, const tube_solution *solution,
-                             double G[][6], double *A, double *b)
+static void fill_rocket_rows(const launching_uncoupled *u, const relative_kinematics *k,
+                             const tube_solution *solution, overall_equation *to)
 {
-    int n = u->n;
+    int n = u->n, size = to->size, count = to->count;
+    double *b = to->b;
     // M3 about O1, in R
     double M3[6][6] = {{0}};
     v3 c = u->now.inertia.c;
@@ -199,7 +206,7 @@ static void fill_rocket_rows(int size, int count, const launching_uncoupled *u,
             V[i][18 + j] = launching_dot(n, X, solution->direction[j]);
     }
     for (int i = 0; i < 6; i++) {
-        double *row = A + (12 + i) * size;
+        double *row = to->A + (12 + i) * size;
         b[12 + i] = h3[i];
         for (int l = 0; l < 6; l++) {
             b[12 + i] -= M3[i][l] * V_0[l];
@@ -207,46 +214,45 @@ static void fill_rocket_rows(int size, int count, const launching_uncoupled *u,
                 row[j] += M3[i][l] * V[l][j];
         }
         for (int j = 0; j < count; j++)
-            row[18 + j] -= G[j][i];
+            row[18 + j] -= to->G[j][i];
     }
 }
 
-// What a constraint on another section than the rocket's has of the tube's accelerations:
-// (G^T X - B^T) eta_dot, which is 0 at the rocket's.
-static void add_other_section(int size, int count, int i, const launching_uncoupled *u,
-                              const double G[6], const relative_kinematics *k,
-                              const tube_solution *solution, double *A, double *b)
+// What constraint i, of wrench G, on another section than the rocket's has of the tube's
+// accelerations: (G^T X - B^T) eta_dot, which is 0 at the rocket's.
+static void add_other_section(const launching_uncoupled *u, const relative_kinematics *k,
+                              const tube_solution *solution, int i, const double G[6],
+                              overall_equation *to)
 {
     int n = u->n;
-    double row[LD_TUBE_SPEEDS];
+    double row[LD_TUBE_SPEEDS], *of_A = to->A + (18 + i) * to->size;
     for (int j = 0; j < n; j++) {
         row[j] = -u->B[i][j];
         for (int l = 0; l < 6; l++)
             row[j] += G[l] * k->X[l * n + j];
     }
-    b[18 + i] -= launching_dot(n, row, solution->constant);
+    to->b[18 + i] -= launching_dot(n, row, solution->constant);
     for (int j = 0; j < 6; j++)
-        A[(18 + i) * size + j] = launching_dot(n, row, solution->end[j]);
-    for (int j = 0; j < count; j++)
-        A[(18 + i) * size + 18 + j] = launching_dot(n, row, solution->direction[j]);
+        of_A[j] = launching_dot(n, row, solution->end[j]);
+    for (int j = 0; j < to->count; j++)
+        of_A[18 + j] = launching_dot(n, row, solution->direction[j]);
 }
 
 // G^T Y y_dot = -(beta + G^T b) of each constraint: c_y^T y_dot = -c_y_dot^T y.
-static void fill_constraint_rows(int size, int count, const launching_uncoupled *u,
-                                 const relative_kinematics *k, const tube_solution *solution,
-                                 double *A, double *b)
+static void fill_constraint_rows(const launching_uncoupled *u, const relative_kinematics *k,
+                                 const tube_solution *solution, overall_equation *to)
 {
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < to->count; i++) {
         const constraint_direction *e = &u->c.set.e[i];
         double G[6];
         v3_store(G, e->G_f);
         v3_store(G + 3, e->G_m);
-        b[18 + i] = -(e->beta + launching_dot(6, G, k->b));
+        to->b[18 + i] = -(e->beta + launching_dot(6, G, k->b));
         for (int j = 0; j < 6; j++)
             for (int l = 0; l < 6; l++)
-                A[(18 + i) * size + 12 + j] += G[l] * k->Y[l][j];
+                to->A[(18 + i) * to->size + 12 + j] += G[l] * k->Y[l][j];
         if (e->section > 0)
-            add_other_section(size, count, i, u, G, k, solution, A, b);
+            add_other_section(u, k, solution, i, G, to);
     }
 }
 
@@ -255,9 +261,9 @@ static void fill_constraint_rows(int size, int count, const launching_uncoupled 
 static bool solve_overall(const launching_system *self, const double *state, launching_uncoupled *u,
                           int sign, launching_output *out)
 {
-    int count = u->c.set.count, size = 18 + count, n = u->n;
-    double A[MAX_UNKNOWNS * MAX_UNKNOWNS] = {0}, x[MAX_UNKNOWNS] = {0};
-    double B[LD_MAX_CONSTRAINTS][LD_TUBE_SPEEDS], G[LD_MAX_CONSTRAINTS][6];
+    int count = u->c.set.count, n = u->n;
+    overall_equation equation = {.size = 18 + count, .count = count};
+    double B[LD_MAX_CONSTRAINTS][LD_TUBE_SPEEDS], (*G)[6] = equation.G, *x = equation.b;
     double rub = sign * (u->c.set.sliding ? u->c.set.rub : 0);
     for (int i = 0; i < count; i++) {
         memcpy(B[i], u->B[i], sizeof(double) * (size_t)n);
@@ -279,12 +285,12 @@ static bool solve_overall(const launching_system *self, const double *state, lau
         !load_solution(u, count, B, &transfer, &solution))
         return false;
     load_relative(self, state, u, &k);
-    fill_tube_rows(size, count, &transfer, A, x);
-    fill_rocket_rows(size, count, u, &k, &solution, G, A, x);
-    fill_constraint_rows(size, count, u, &k, &solution, A, x);
-    if (lu_factor(size, A, pivot))
+    fill_tube_rows(&transfer, &equation);
+    fill_rocket_rows(u, &k, &solution, &equation);
+    fill_constraint_rows(u, &k, &solution, &equation);
+    if (lu_factor(equation.size, equation.A, pivot))
         return false;
-    lu_solve(size, A, pivot, x);
+    lu_solve(equation.size, equation.A, pivot, x);
     // back to the accelerations
     double eta_dot[LD_TUBE_SPEEDS], V[6];
     for (int j = 0; j < n; j++) {

@@ -176,8 +176,8 @@ static void body_transfer(const overall *o, int i, v3 r, transfer_matrix *U)
     m3 A = node_axes(s, i);
     double m = given->mass;
     v3 c = m > 0 ? v3_scale(1 / m, m3_apply(A, given->moment)) : v3_zero();
-    rigid_body body = {m, c, sym3_full(sym3_turn(A, given->inertia))};
-    rigid_body_transfer(U, &body, r, v4d_v3(s->motion[i].w), v3_zero(), v3_zero(), v3_zero());
+    rigid_body body = {m, c, sym3_full(sym3_turn(A, given->inertia)), r};
+    rigid_body_transfer(U, &body, v4d_v3(s->motion[i].w), v3_zero(), v3_zero(), v3_zero());
 }
 
 // The beam's U from its input to its output section (its tip where it carries nothing), all along
