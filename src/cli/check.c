@@ -146,7 +146,7 @@ int command_check(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (!command_line_read(&line, self, argc, argv, options, 1, &code))
+    if (!command_line_read(&line, self, argc, argv, options, &code))
         return code;
     findings found = {.error = {LD_ERR_MEMORY, "no memory"}};
     ld_model *model = check_file(line.word[0], &wishes, &found);

@@ -149,8 +149,9 @@ int command_in_child(int (*work)(void *data), void *data)
 }
 
 // What is wrong with the number of words.
-static bool has_words(const command *self, const command_line *line, int count)
+static bool has_words(const command *self, const command_line *line)
 {
+    int count = self->words;
     if (count == COMMAND_WORDS ? line->count > 0 : count < 0 || line->count == (size_t)count)
         return true;
     char call[HELP_CALL];
@@ -164,14 +165,14 @@ static bool has_words(const command *self, const command_line *line, int count)
 }
 
 bool command_line_read(command_line *line, const command *self, int argc, char **argv,
-                       const command_option *options, int count, int *code)
+                       const command_option *options, int *code)
 {
     ld_error error;
     ld_status status = options_read(line, argc, argv, options, &error);
     voice.since = now();
     if (!status && !line->help && voice.quiet && voice.verbose)
         status = ld_fail(&error, LD_ERR_INPUT, "--quiet and --verbose exclude each other");
-    if (!status && !line->help && has_words(self, line, count))
+    if (!status && !line->help && has_words(self, line))
         return true;
     if (!status && line->help)
         help_print(self, options);
@@ -272,7 +273,7 @@ int command_on_model(const command *self, int argc, char **argv, const command_o
 {
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, 1, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         code = command_on_file(line.word[0], *sets, work, data);
         options_end(&line);
     }

@@ -88,12 +88,10 @@ FILE *command_text(void); // stdout; with --quiet one that no one reads
 // the start.
 void command_step(const char *format, ...) LD_PRINTF(1, 2);
 
-enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
-
-// Reads the options and `count` words. Returns true to continue, then options_end() is due; false
-// to end with *code.
+// Reads the options and the command's words. Returns true to go on, then options_end() is due;
+// false to end with *code.
 bool command_line_read(command_line *line, const command *self, int argc, char **argv,
-                       const command_option *options, int count, int *code);
+                       const command_option *options, int *code);
 
 // Prints "launchdyn: text" on stderr.
 void command_complain(const char *format, ...) LD_PRINTF(1, 2);

@@ -59,7 +59,7 @@ int command_fmu(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         what.out = archive ? archive : out;
         what.system = archive != NULL;
         if (line.count != 2 || strcmp(line.word[0], "export") != 0 || !what.out) {

@@ -6,12 +6,15 @@
 
 #include "cli/options.h"
 
+enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
+
 // One command: a row of the table in main.c.
 typedef struct command command;
 struct command {
     const char *name;
     const char *program;   // whose command it is; NULL: launchdyn
     const char *arguments; // e.g. "FILE"; forms with " | " between
+    int words;             // that it takes besides options
     const char *summary;   // one line
     const char *about;     // what --help and the page say besides; NULL: nothing
     const char *examples;  // lines "command|what it does"; NULL: none

@@ -161,7 +161,7 @@ int command_new(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, 0, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         code = make(&wishes);
         options_end(&line);
     }

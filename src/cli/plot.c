@@ -76,7 +76,7 @@ int command_plot(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         if (!asked.file) {
             command_complain("plot requires -o FILE.svg, FILE.pdf or FILE.png");
             code = EXIT_INPUT;

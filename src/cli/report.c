@@ -76,7 +76,7 @@ int command_report(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, COMMAND_WORDS, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         bool studies = false;
         for (size_t i = 0; i < line.count; i++)
             studies |= holds_study(line.word[i]);

@@ -134,7 +134,7 @@ int command_response(const command *self, int argc, char **argv)
     static const char *names[MOST];
     command_line line;
     int code = 0;
-    if (!command_line_read(&line, self, argc, argv, options, 1, &code))
+    if (!command_line_read(&line, self, argc, argv, options, &code))
         return code;
     wishes.wish.input = input;
     wishes.wish.density = density;

@@ -186,7 +186,7 @@ int command_run(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         code = run_words(self, &line, again, &wishes);
         options_end(&line);
     }

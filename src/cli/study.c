@@ -244,7 +244,7 @@ int command_study(const command *self, int argc, char **argv)
         COMMAND_USUAL};
     command_line line;
     int code = 0;
-    if (command_line_read(&line, self, argc, argv, options, COMMAND_ANY, &code)) {
+    if (command_line_read(&line, self, argc, argv, options, &code)) {
         const char *file = line.count > 0 ? line.word[0] : NULL;
         command_tell_renamed(what);
         wishes.view = (ld_study_view){.what = what,

@@ -112,8 +112,8 @@ static char *copy_of(const char *text, bool *full)
     return copy;
 }
 
-static void add(gathering *self, fmu_group group, const char *name, const char *unit,
-                const char *description, double start, const char *text)
+// The next variable of a group, with the number or the text that it starts with.
+static void add(gathering *self, fmu_group group, ld_column of, double start, const char *text)
 {
     fmu_variables *list = self->into;
     if (list->count == list->capacity) {
@@ -128,9 +128,9 @@ static void add(gathering *self, fmu_group group, const char *name, const char *
     }
     list->item[list->count++] = (fmu_variable){.group = group,
                                                .index = self->index++,
-                                               .name = copy_of(name, &self->full),
-                                               .unit = copy_of(unit, &self->full),
-                                               .description = copy_of(description, &self->full),
+                                               .name = copy_of(of.name, &self->full),
+                                               .unit = copy_of(of.unit, &self->full),
+                                               .description = copy_of(of.description, &self->full),
                                                .start = start,
                                                .text = text ? copy_of(text, &self->full) : NULL};
 }
@@ -168,7 +168,7 @@ static void add_exchanged(gathering *self, fmu_group group, const char *prefix,
             char name[NAME_SIZE];
             snprintf(name, sizeof name, "%s.%s.%c", prefix, part[i].name,
                      (part[i].count == 3 ? "xyz" : "0123")[k]);
-            add(self, group, name, part[i].unit, part[i].description,
+            add(self, group, (ld_column){name, part[i].unit, part[i].description},
                 start ? start[self->index] : NAN, NULL);
         }
 }
@@ -198,10 +198,10 @@ static void add_key(gathering *self, const char *path, const ld_key *key)
     bool is_number = !ld_model_number(self->model, path, &number, NULL);
     snprintf(name, sizeof name, KEY_PREFIX "%s", path);
     if (self->keys == FMU_NUMBER && is_number && !isnan(number))
-        add(self, FMU_NUMBER, name, key->unit, key->description, number, NULL);
+        add(self, FMU_NUMBER, (ld_column){name, key->unit, key->description}, number, NULL);
     else if (self->keys == FMU_TEXT && !is_number &&
              !ld_model_text(self->model, path, text, sizeof text, NULL) && *text)
-        add(self, FMU_TEXT, name, "", key->description, NAN, text);
+        add(self, FMU_TEXT, (ld_column){name, "", key->description}, NAN, text);
 }
 
 // Keys that say what a study draws are none of a launch; the first one is the language's number.
@@ -238,7 +238,7 @@ static void take_result(void *data, const ld_quantity *result)
         strncmp(result->name, "rocket.exit_error.", 18) == 0)
         return;
     snprintf(name, sizeof name, "summary.%s", result->name);
-    add(self, FMU_RESULT, name, result->unit, result->description, NAN, NULL);
+    add(self, FMU_RESULT, (ld_column){name, result->unit, result->description}, NAN, NULL);
 }
 
 static void add_states(gathering *self, const ld_run *run)
@@ -251,7 +251,7 @@ static void add_states(gathering *self, const ld_run *run)
     for (int i = 0; i < count && !self->full; i++) {
         const exchange_quantity state = launch_exchange_state(run, i);
         snprintf(name, sizeof name, "state.%s", state.name);
-        add(self, FMU_STATE, name, state.unit, state.description, NAN, NULL);
+        add(self, FMU_STATE, (ld_column){name, state.unit, state.description}, NAN, NULL);
         if (!self->full)
             self->into->item[self->into->count - 1].nominal = nominal[i];
     }
@@ -259,13 +259,14 @@ static void add_states(gathering *self, const ld_run *run)
     for (int i = 0; i < count; i++) {
         const exchange_quantity state = launch_exchange_state(run, i);
         snprintf(name, sizeof name, "der(state.%s)", state.name);
-        add(self, FMU_RATE, name, state.rate_unit, "Its rate", NAN, NULL);
+        add(self, FMU_RATE, (ld_column){name, state.rate_unit, "Its rate"}, NAN, NULL);
     }
     begin_group(self);
     for (int i = 0; i < launch_exchange_indicators(run); i++) {
         const exchange_quantity indicator = launch_exchange_indicator(run, i);
         snprintf(name, sizeof name, "indicator.%s", indicator.name);
-        add(self, FMU_INDICATOR, name, indicator.unit, indicator.description, NAN, NULL);
+        add(self, FMU_INDICATOR, (ld_column){name, indicator.unit, indicator.description}, NAN,
+            NULL);
     }
 }
 
@@ -301,7 +302,7 @@ static void add_columns(gathering *self, const ld_simulation *simulation)
     begin_group(self);
     for (size_t i = 0; i < columns; i++)
         if (strcmp(column[i].name, "t") != 0)
-            add(self, FMU_COLUMN, column[i].name, column[i].unit, column[i].description, NAN, NULL);
+            add(self, FMU_COLUMN, column[i], NAN, NULL);
         else
             self->index++;
 }
@@ -327,11 +328,14 @@ static void add_ignition(gathering *self)
     if (!self->into->runner->ignite)
         return;
     begin_group(self);
-    add(self, FMU_IGNITE, "input.ignition", "", "Ignites the waiting rocket when it becomes true",
-        0, NULL);
+    add(self, FMU_IGNITE,
+        (ld_column){"input.ignition", "", "Ignites the waiting rocket when it becomes true"}, 0,
+        NULL);
     begin_group(self);
-    add(self, FMU_WAIT, "ignition_by_input", "",
-        "Rockets are ignited by input.ignition, not at their times in the scenario", 0, NULL);
+    add(self, FMU_WAIT,
+        (ld_column){"ignition_by_input", "",
+                    "Rockets are ignited by input.ignition, not at their times in the scenario"},
+        0, NULL);
 }
 
 ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
@@ -348,7 +352,7 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
     if (!run)
         return error->status;
     self->start = runner->time(run);
-    add(&all, FMU_TIME, "time", "s", "Time", NAN, NULL);
+    add(&all, FMU_TIME, (ld_column){"time", "s", "Time"}, NAN, NULL);
     add_inputs(&all, inputs);
     add_ignition(&all);
     add_keys(&all);

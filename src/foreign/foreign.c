@@ -134,14 +134,13 @@ void foreign_close(foreign_package *self)
 
 // ---- instances
 
-// Asks for something with a body and an answer of known sizes.
-static ld_status ask_process(foreign_instance *self, foreign_kind kind, double t, const void *body,
-                             size_t size, void *answer, size_t expected, ld_error *error)
+// Asks for an answer of a known size.
+static ld_status ask_process(foreign_instance *self, const foreign_question *question, void *answer,
+                     size_t expected, ld_error *error)
 {
-    size_t got;
-    ld_status status = foreign_process_ask(self->process, kind, t, body, size, NULL, 0, answer,
-                                           expected, &got, error);
-    return status || got == expected
+    foreign_reply reply = {answer, expected, 0};
+    ld_status status = foreign_process_ask(self->process, question, &reply, error);
+    return status || reply.size == expected
                ? status
                : ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process gave an invalid answer",
                          self->package->path);
@@ -162,8 +161,8 @@ static ld_status instantiate(foreign_instance *self, ld_error *error)
              self->package->folder, of->version == 3 ? "/" : "");
     snprintf(opening->token, sizeof opening->token, "%s", of->token);
     snprintf(opening->identifier, sizeof opening->identifier, "%s", of->identifier);
-    ld_status status =
-        ask_process(self, FOREIGN_OPEN, NAN, opening, sizeof *opening, NULL, 0, error);
+    const foreign_question question = {FOREIGN_OPEN, NAN, {opening}, {sizeof *opening}};
+    ld_status status = ask_process(self, &question, NULL, 0, error);
     free(opening);
     return status;
 }
@@ -195,48 +194,47 @@ void foreign_end(foreign_instance *self)
 ld_status foreign_set(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       ld_error *error)
 {
-    return ask_process(self, FOREIGN_SET, t, values, count * sizeof *values, NULL, 0, error);
+    const foreign_question question = {FOREIGN_SET, t, {values}, {count * sizeof *values}};
+    return ask_process(self, &question, NULL, 0, error);
 }
 
 ld_status foreign_set_text(foreign_instance *self, double t, uint32_t reference, const char *text,
                            ld_error *error)
 {
-    size_t none;
-    return foreign_process_ask(self->process, FOREIGN_SET_TEXT, t, &reference, sizeof reference,
-                               text, strlen(text) + 1, NULL, 0, &none, error);
+    const foreign_question question = {
+        FOREIGN_SET_TEXT, t, {&reference, text}, {sizeof reference, strlen(text) + 1}};
+    return ask_process(self, &question, NULL, 0, error);
 }
 
 ld_status foreign_get(foreign_instance *self, double t, const foreign_value *values, size_t count,
                       double *numbers, ld_error *error)
 {
-    return ask_process(self, FOREIGN_GET, t, values, count * sizeof *values, numbers,
-                       count * sizeof *numbers, error);
+    const foreign_question question = {FOREIGN_GET, t, {values}, {count * sizeof *values}};
+    return ask_process(self, &question, numbers, count * sizeof *numbers, error);
 }
 
 ld_status foreign_enter(foreign_instance *self, double t, double start, ld_error *error)
 {
-    return ask_process(self, FOREIGN_ENTER, t, &start, sizeof start, NULL, 0, error);
+    const foreign_question question = {FOREIGN_ENTER, t, {&start}, {sizeof start}};
+    return ask_process(self, &question, NULL, 0, error);
 }
 
 ld_status foreign_leave(foreign_instance *self, double t, ld_error *error)
 {
-    return ask_process(self, FOREIGN_LEAVE, t, NULL, 0, NULL, 0, error);
+    return ask_process(self, &(foreign_question){.kind = FOREIGN_LEAVE, .t = t}, NULL, 0, error);
 }
 
 ld_status foreign_step(foreign_instance *self, double t, const foreign_stepping *step,
                        const foreign_value *values, double *numbers, int *pieces, ld_error *error)
 {
     foreign_step_answer answer;
-    size_t got, count = step->inputs + step->outputs;
+    size_t count = step->inputs + step->outputs;
     size_t expected = offsetof(foreign_step_answer, number) + step->outputs * sizeof(double);
-    ld_status status =
-        foreign_process_ask(self->process, FOREIGN_STEP, t, step, sizeof *step, values,
-                            count * sizeof *values, &answer, sizeof answer, &got, error);
+    const foreign_question question = {
+        FOREIGN_STEP, t, {step, values}, {sizeof *step, count * sizeof *values}};
+    ld_status status = ask_process(self, &question, &answer, expected, error);
     if (status)
         return status;
-    if (got != expected)
-        return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU's process gave an invalid answer",
-                       self->package->path);
     memcpy(numbers, answer.number, step->outputs * sizeof *numbers);
     *pieces = (int)answer.pieces;
     return LD_OK;
@@ -259,13 +257,13 @@ static void archive_bytes(archive *to, unsigned char *bytes, size_t size)
 static ld_status save(foreign_instance *self, double t, archive *to, unsigned char *bytes,
                       ld_error *error)
 {
-    size_t size = 0;
-    ld_status status = foreign_process_ask(self->process, FOREIGN_SAVE, t, NULL, 0, NULL, 0, bytes,
-                                           MOST_STATE, &size, error);
-    int64_t count = (int64_t)size;
+    foreign_reply reply = {bytes, MOST_STATE, 0};
+    ld_status status = foreign_process_ask(
+        self->process, &(foreign_question){.kind = FOREIGN_SAVE, .t = t}, &reply, error);
+    int64_t count = (int64_t)reply.size;
     archive_count(to, &count);
     if (!status)
-        archive_bytes(to, bytes, size);
+        archive_bytes(to, bytes, reply.size);
     return status;
 }
 
@@ -273,14 +271,13 @@ static ld_status load(foreign_instance *self, double t, archive *from, unsigned 
                       ld_error *error)
 {
     int64_t count = 0;
-    size_t none;
     archive_count(from, &count);
     from->failed |= count > MOST_STATE || (size_t)count > from->size;
     if (from->failed)
         return LD_OK;
     archive_bytes(from, bytes, (size_t)count);
-    return foreign_process_ask(self->process, FOREIGN_LOAD, t, bytes, (size_t)count, NULL, 0, NULL,
-                               0, &none, error);
+    const foreign_question question = {FOREIGN_LOAD, t, {bytes}, {(size_t)count}};
+    return ask_process(self, &question, NULL, 0, error);
 }
 
 ld_status foreign_archive(foreign_instance *self, double t, archive *bytes, ld_error *error)

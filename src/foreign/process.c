@@ -294,30 +294,31 @@ static moved receive_all(const foreign_process *self, char *bytes, size_t size, 
     return MOVED;
 }
 
-static moved ask(const foreign_process *self, foreign_kind kind, const void *const body[2],
-                 const size_t size[2], foreign_answer *head)
+static moved ask(const foreign_process *self, const foreign_question *question,
+                 foreign_answer *head)
 {
-    foreign_request request = {.kind = kind, .size = size[0] + size[1]};
+    const size_t *size = question->size;
+    foreign_request request = {.kind = question->kind, .size = size[0] + size[1]};
     double until = now() + self->limit;
     moved result = send_all(self, (const char *)&request, sizeof request, until);
     for (int i = 0; i < 2 && result == MOVED; i++)
-        result = send_all(self, body[i], size[i], until);
+        result = send_all(self, question->body[i], size[i], until);
     return result == MOVED ? receive_all(self, (char *)head, sizeof *head, until) : result;
 }
 
-ld_status foreign_process_ask(foreign_process *self, foreign_kind kind, double t, const void *body,
-                              size_t size, const void *more, size_t more_size, void *answer,
-                              size_t room, size_t *answered, ld_error *error)
+ld_status foreign_process_ask(foreign_process *self, const foreign_question *question,
+                              foreign_reply *reply, ld_error *error)
 {
     foreign_answer head = {0};
+    double t = question->t;
+    size_t room = reply->room;
     if (self->lost)
         return ld_fail(error, LD_ERR_NUMERIC, "%.300s: the FMU has ended", self->name);
-    moved result = ask(self, kind, (const void *const[]){body, more},
-                       (const size_t[]){size, more_size}, &head);
+    moved result = ask(self, question, &head);
     if (result == MOVED && head.result == FOREIGN_DONE && head.size <= room)
-        result = receive_all(self, answer, head.size, now() + self->limit);
+        result = receive_all(self, reply->bytes, head.size, now() + self->limit);
     self->lost = result != MOVED || head.result != FOREIGN_DONE || head.size > room;
-    *answered = head.size;
+    reply->size = head.size;
     if (result == MOVED_NOT)
         return fail_ended(self, t, error);
     if (result == MOVED_LATE)
@@ -337,7 +338,7 @@ static void say_goodbye(foreign_process *self)
     foreign_answer head;
     const double limit = self->limit;
     self->limit = fmin(limit, 2);
-    ask(self, FOREIGN_END, (const void *const[]){NULL, NULL}, (const size_t[]){0, 0}, &head);
+    ask(self, &(foreign_question){.kind = FOREIGN_END}, &head);
     self->limit = limit;
 }
 

@@ -6,7 +6,6 @@
 #include "base/cpu_time.h"
 #include "flight/flight_history.h"
 #include "flight/free_flight.h"
-#include "model/blocks/firing.h"
 #include "model/parts.h"
 
 static ld_status write_flight_row(void *user, const flight_phase *phase, double t,
@@ -62,8 +61,7 @@ ld_status launch_add_jet(ld_run *run, const jet_place *mouth, ld_error *error)
     int i = self->jets.count;
     const flight_system *flight = simulation_flight(self->system, i);
     flight_phase phase = enter_flight(run, flight, i, state);
-    return jets_add(&self->jets, flight, &phase, model_firing(self->model, i)->tube, mouth, state,
-                    error);
+    return jets_add(&self->jets, flight, &phase, mouth, state, error);
 }
 
 ld_status launch_begin_jet(ld_run *run, double t, const double *y)

@@ -50,7 +50,7 @@ static int row_at(const road_rows *self, int part)
 
 // The launch that the road disturbs.
 typedef struct exit_bench {
-    const ld_response *response;
+    ld_response *response;
     int launches; // so far
     ld_model model;
     ld_simulation *simulation;
@@ -250,10 +250,11 @@ static ld_status fill_rows(road_rows *self, ld_response *response, double speed,
     return status;
 }
 
-static ld_status make_rows(exit_bench *self, ld_response *response, double speed, ld_error *error)
+static ld_status make_rows(exit_bench *self, double speed, ld_error *error)
 {
     size_t lines;
     double highest = 0;
+    ld_response *response = self->response;
     road_rows *rows = &self->rows;
     const road_line *line = response_lines(response, &lines);
     for (size_t k = 0; k < lines; k++)
@@ -415,8 +416,8 @@ static ld_status launch_from_rest(exit_bench *self, ld_error *error)
     return run_on(self, &flat, error);
 }
 
-static ld_status scatter(exit_bench *self, ld_response *response, double speed, int draws,
-                         double *mean, double *deviation, ld_error *error)
+static ld_status scatter(exit_bench *self, double speed, int draws, double *mean, double *deviation,
+                         ld_error *error)
 {
     double *rest = self->value + 2 * self->figures;
     ld_status status = find_rest(self, error);
@@ -427,7 +428,7 @@ static ld_status scatter(exit_bench *self, ld_response *response, double speed, 
     read_figures(self, rest);
     for (int i = 0; i < self->figures; i++)
         mean[i] = deviation[i] = 0;
-    status = make_rows(self, response, speed, error);
+    status = make_rows(self, speed, error);
     if (!status)
         status = draws ? add_draws(self, draws, rest, mean, deviation, error)
                        : add_patterns(self, deviation, error);
@@ -455,7 +456,7 @@ ld_status ld_response_exit(ld_response *response, double speed, int draws, const
     set_model(self, response_model(response), speed, draws ? SETTLING : 0);
     status = find_figures(self, names, count, error);
     if (!status)
-        status = scatter(self, response, speed, draws, mean, deviation, error);
+        status = scatter(self, speed, draws, mean, deviation, error);
     bench_free(self);
     return status;
 }

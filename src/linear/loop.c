@@ -46,6 +46,7 @@ struct ld_loop {
 
 // What a loop is at a frequency.
 typedef struct look {
+    double frequency;           // [Hz]
     double complex open, error; // L as it is; error per command as if it were at once
     double complex delay;
 } look;
@@ -115,6 +116,7 @@ static ld_status evaluate_at(const ld_loop *self, double frequency, look *at, ld
         return status;
     for (int i = 0; i < 3; i++)
         rate += self->axis[i] * seen[1 + i];
+    at->frequency = frequency;
     at->error = seen[0];
     double complex left = at->error - feedforward(self->stabiliser, s) * rate;
     at->delay = delay_of(self, frequency);
@@ -146,57 +148,57 @@ static double above_tracking(const look *at)
 
 // Halves the step between two frequencies on both sides of a zero of L's function; what is there.
 static ld_status close_in(const ld_loop *self, double (*side)(double complex), double low,
-                          double high, double *frequency, look *at, ld_error *error)
+                          double high, look *at, ld_error *error)
 {
     look first;
     ld_status status = evaluate_at(self, low, &first, error);
     for (int i = 0; i < HALVINGS && !status; i++) {
-        *frequency = 0.5 * (low + high);
-        status = evaluate_at(self, *frequency, at, error);
+        double middle = 0.5 * (low + high);
+        status = evaluate_at(self, middle, at, error);
         bool below = !status && side(at->open) * side(first.open) > 0;
-        low = below ? *frequency : low;
-        high = below ? high : *frequency;
+        low = below ? middle : low;
+        high = below ? high : middle;
     }
     return status;
 }
 
 // L on the negative real axis: gains times -1/L are at the limit.
-static void note_axis(ld_loop_margins *to, double frequency, double complex open)
+static void note_axis(ld_loop_margins *to, const look *at)
 {
-    double factor = -1 / creal(open);
+    double factor = -1 / creal(at->open);
     if (factor > 1 && factor < to->raise) {
         to->raise = factor;
-        to->raise_at = frequency;
+        to->raise_at = at->frequency;
     } else if (factor > 0 && factor < 1 && factor > to->lower) {
         to->lower = factor;
-        to->lower_at = frequency;
+        to->lower_at = at->frequency;
     }
 }
 
 // |L| = 1: how far it may turn back, as it does the more the later the loop is, until it is -1.
-static void note_unity(ld_loop *self, double frequency, const look *at)
+static void note_unity(ld_loop *self, const look *at)
 {
     ld_loop_margins *to = &self->margins;
-    double omega = TWO_PI * frequency, lag = argument(-at->open / at->delay);
+    double omega = TWO_PI * at->frequency, lag = argument(-at->open / at->delay);
     to->phase = fmin(to->phase, fabs(argument(-at->open)));
-    to->crossover = frequency;
+    to->crossover = at->frequency;
     self->lateness = fmin(self->lateness, (lag < 0 ? lag + TWO_PI : lag) / omega);
 }
 
 static ld_status note_step(ld_loop *self, int k, const look *from, const look *to, ld_error *error)
 {
     look at;
-    double low = frequency_of(k - 1), high = frequency_of(k), frequency;
+    double low = frequency_of(k - 1), high = frequency_of(k);
     ld_status status = LD_OK;
     if (above_one(from->open) * above_one(to->open) <= 0) {
-        status = close_in(self, above_one, low, high, &frequency, &at, error);
+        status = close_in(self, above_one, low, high, &at, error);
         if (!status)
-            note_unity(self, frequency, &at);
+            note_unity(self, &at);
     }
     if (!status && beside_axis(from->open) * beside_axis(to->open) <= 0) {
-        status = close_in(self, beside_axis, low, high, &frequency, &at, error);
+        status = close_in(self, beside_axis, low, high, &at, error);
         if (!status)
-            note_axis(&self->margins, frequency, at.open);
+            note_axis(&self->margins, &at);
     }
     // little depends on it: within the step by a straight line
     double before = above_tracking(from), after = above_tracking(to);

@@ -432,12 +432,19 @@ static void output_phasors(const ld_response *self, const excitation *by, double
     }
 }
 
-// What the columns chosen answer to each of `count` excitations, y [count][chosen]; z is room for
-// the states of each.
+// What excitations make of the states, z [excitations][2][states], and what the columns chosen
+// answer, y [excitations][chosen].
+typedef struct answers {
+    double *z;
+    ld_phasor *y;
+} answers;
+
+// To each of `count` excitations.
 static ld_status respond(ld_response *self, const excitation *by, int count, double frequency,
-                         double *z, ld_phasor *y, ld_error *error)
+                        const answers *to, ld_error *error)
 {
     int n = self->now.states;
+    double *z = to->z;
     double omega = TWO_PI * frequency;
     if (!(frequency > 0 && isfinite(frequency)))
         return ld_fail(error, LD_ERR_INPUT, "found %g Hz, expected a frequency above 0", frequency);
@@ -447,17 +454,17 @@ static ld_status respond(ld_response *self, const excitation *by, int count, dou
         return ld_fail(error, LD_ERR_NUMERIC,
                        "at %g Hz the response of an undamped motion is unbounded", frequency);
     for (int i = 0; i < count; i++)
-        output_phasors(self, &by[i], omega, z + 2 * n * i, y + self->chosen_count * i);
+        output_phasors(self, &by[i], omega, z + 2 * n * i, to->y + self->chosen_count * i);
     return LD_OK;
 }
 
-// Room for the states and the chosen columns of two excitations; z is to be freed.
-static ld_status make_room(const ld_response *self, double **z, ld_phasor **y, ld_error *error)
+// Room for those to two excitations; its z is to be freed.
+static ld_status make_room(const ld_response *self, answers *room, ld_error *error)
 {
     size_t n = (size_t)self->now.states, count = (size_t)self->chosen_count;
-    *z = malloc((4 * n + 4 * count) * sizeof **z);
-    *y = (ld_phasor *)(void *)(*z + 4 * n);
-    return *z ? LD_OK : no_memory(error);
+    room->z = malloc((4 * n + 4 * count) * sizeof *room->z);
+    room->y = (ld_phasor *)(void *)(room->z + 4 * n);
+    return room->z ? LD_OK : no_memory(error);
 }
 
 // ---- what is asked ----
@@ -491,63 +498,62 @@ static ld_status excitation_of(const ld_response *self, const char *name, double
 ld_status ld_response_gain(ld_response *self, double speed, const char *input,
                            const double *frequency, size_t count, ld_phasor *gain, ld_error *error)
 {
-    double *z;
-    ld_phasor *y;
+    answers room;
     excitation by;
     ld_status status = excitation_of(self, input, speed, &by, error);
     if (!status)
         status = go_at(self, speed, error);
-    if (status || (status = make_room(self, &z, &y, error)))
+    if (status || (status = make_room(self, &room, error)))
         return status;
-    for (size_t i = 0; i < count && !status; i++)
-        status =
-            respond(self, &by, 1, frequency[i], z, gain + i * (size_t)self->chosen_count, error);
-    free(z);
+    for (size_t i = 0; i < count && !status; i++) {
+        const answers to = {room.z, gain + i * (size_t)self->chosen_count};
+        status = respond(self, &by, 1, frequency[i], &to, error);
+    }
+    free(room.z);
     return status;
 }
 
-// At the speed on its road, with room for what is answered; *z is freed.
-static ld_status continue_on_road(ld_response *self, double speed, double **z, ld_phasor **y,
-                                  ld_error *error)
+// At the speed on its road, with room for what is answered.
+static ld_status continue_on_road(ld_response *self, double speed, answers *room, ld_error *error)
 {
     ld_status status = response_check_road(self, speed, error);
     if (!status)
         status = go_at(self, speed, error);
-    return status ? status : make_room(self, z, y, error);
+    return status ? status : make_room(self, room, error);
 }
 
 ld_status response_states(ld_response *self, double speed, double frequency, ld_phasor *state,
                           ld_error *error)
 {
     int n = self->now.states;
-    double *z;
-    ld_phasor *y;
-    ld_status status = continue_on_road(self, speed, &z, &y, error);
+    answers room;
+    ld_status status = continue_on_road(self, speed, &room, error);
     if (status)
         return status;
-    status = respond(self, &self->road[ROAD_OF_LEFT], 2, frequency, z, y, error);
+    status = respond(self, &self->road[ROAD_OF_LEFT], 2, frequency, &room, error);
     for (int k = 0; k < 2 && !status; k++)
         for (int i = 0; i < n; i++) {
             ld_phasor sum = {0, 0};
             for (int j = 0; j < n; j++) {
-                sum.real += self->solver.X[i + n * j] * z[2 * n * k + j];
-                sum.imaginary += self->solver.X[i + n * j] * z[2 * n * k + n + j];
+                sum.real += self->solver.X[i + n * j] * room.z[2 * n * k + j];
+                sum.imaginary += self->solver.X[i + n * j] * room.z[2 * n * k + n + j];
             }
             state[n * k + i] = sum;
         }
-    free(z);
+    free(room.z);
     return status;
 }
 
 // Mean squares of the columns chosen per mean square of a road's line: |L + shared R|^2 + (1 -
 // shared^2) |R|^2, L and R what they answer to the tracks.
-static ld_status square_on_road(ld_response *self, double frequency, double shared, double *z,
-                                ld_phasor *y, double *square, ld_error *error)
+static ld_status square_on_road(ld_response *self, double frequency, double shared,
+                                const answers *room, double *square, ld_error *error)
 {
+    const ld_phasor *y = room->y;
     bool same = shared == 1;
     int count = self->chosen_count;
     ld_status status = respond(self, &self->road[same ? ROAD_OF_BOTH : ROAD_OF_LEFT], same ? 1 : 2,
-                               frequency, z, y, error);
+                              frequency, room, error);
     for (int i = 0; i < count && !status; i++) {
         ld_phasor left = y[i], right = same ? (ld_phasor){0, 0} : y[count + i];
         square[i] = left.real * left.real + left.imaginary * left.imaginary +
@@ -561,9 +567,8 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
                               ld_error *error)
 {
     size_t count = (size_t)self->chosen_count;
-    double *z;
-    ld_phasor *y;
-    ld_status status = continue_on_road(self, speed, &z, &y, error);
+    answers room;
+    ld_status status = continue_on_road(self, speed, &room, error);
     if (status)
         return status;
     double *square = calloc(2 * count + 1, sizeof *square), *most = square + count;
@@ -575,7 +580,7 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
     for (size_t k = 0; k < self->line_count && !status; k++) {
         const road_line *line = &self->line[k];
         double frequency = line->n * speed;
-        status = square_on_road(self, frequency, line->shared, z, y, square, error);
+        status = square_on_road(self, frequency, line->shared, &room, square, error);
         for (size_t i = 0; i < count && !status; i++) {
             rms[i] += line->square * square[i];
             if (strongest && line->square * square[i] > most[i]) {
@@ -587,7 +592,7 @@ ld_status ld_response_on_road(ld_response *self, double speed, double *rms, doub
     for (size_t i = 0; i < count; i++)
         rms[i] = sqrt(rms[i]);
     free(square);
-    free(z);
+    free(room.z);
     return status;
 }
 
@@ -617,19 +622,19 @@ static const ld_hinge_friction *friction_of(const ld_response *self, int hinge)
 // How fast the hinges move on the road, root mean square.
 static ld_status find_rates(ld_response *self, double speed, double rate[HINGES], ld_error *error)
 {
-    double *z, square[HINGES];
-    ld_phasor *y;
-    ld_status status = make_room(self, &z, &y, error);
+    double square[HINGES];
+    answers room;
+    ld_status status = make_room(self, &room, error);
     rate[HINGE_AZIMUTH] = rate[HINGE_ELEVATION] = 0;
     for (size_t k = 0; k < self->line_count && !status; k++) {
-        status = square_on_road(self, self->line[k].n * speed, self->line[k].shared, z, y, square,
+        status = square_on_road(self, self->line[k].n * speed, self->line[k].shared, &room, square,
                                 error);
         for (int i = 0; i < HINGES && !status; i++)
             rate[i] += self->line[k].square * square[i];
     }
     for (int i = 0; i < HINGES; i++)
         rate[i] = sqrt(rate[i]);
-    free(z);
+    free(room.z);
     return status;
 }
 
@@ -727,20 +732,19 @@ ld_status ld_response_friction(ld_response *self, bool friction, ld_error *error
 ld_status ld_response_density(ld_response *self, double speed, const double *frequency,
                               size_t count, double *density, ld_error *error)
 {
-    double *z;
-    ld_phasor *y;
-    ld_status status = continue_on_road(self, speed, &z, &y, error);
+    answers room;
+    ld_status status = continue_on_road(self, speed, &room, error);
     if (status)
         return status;
     for (size_t k = 0; k < count && !status; k++) {
         double shared, *to = density + k * (size_t)self->chosen_count;
         double height =
             road_density(&self->model->base.vehicle.road, frequency[k] / speed, &shared);
-        status = square_on_road(self, frequency[k], shared, z, y, to, error);
+        status = square_on_road(self, frequency[k], shared, &room, to, error);
         for (int i = 0; i < self->chosen_count && !status; i++)
             to[i] *= height / speed;
     }
-    free(z);
+    free(room.z);
     return status;
 }
 
@@ -767,21 +771,21 @@ static ld_status check_density(const double *frequency, const double *density, s
                           "frequencies and no value below 0");
 }
 
-// What the columns' mean squares have of the frequencies around one; y: room for them.
+// What the columns' mean squares have of the frequencies around one.
 typedef struct driven {
     ld_response *response;
     const excitation *by;
-    double *z, *square, *most, *strongest; // [states], [columns chosen]
-    ld_phasor *y;
+    answers room;
+    double *square, *most, *strongest; // [columns chosen]
 } driven;
 
 static ld_status add_band(driven *self, double frequency, double density, double width,
                           ld_error *error)
 {
-    ld_status status = respond(self->response, self->by, 1, frequency, self->z, self->y, error);
+    ld_status status = respond(self->response, self->by, 1, frequency, &self->room, error);
+    const ld_phasor *y = self->room.y;
     for (int i = 0; i < self->response->chosen_count && !status; i++) {
-        double gain =
-            self->y[i].real * self->y[i].real + self->y[i].imaginary * self->y[i].imaginary;
+        double gain = y[i].real * y[i].real + y[i].imaginary * y[i].imaginary;
         self->square[i] += width * density * gain;
         if (density * gain > self->most[i]) {
             self->most[i] = density * gain;
@@ -820,7 +824,7 @@ ld_status ld_response_random(ld_response *self, double speed, const char *input,
         status = excitation_of(self, input, speed, &by, error);
     if (!status)
         status = go_at(self, speed, error);
-    if (status || (status = make_room(self, &sum.z, &sum.y, error)))
+    if (status || (status = make_room(self, &sum.room, error)))
         return status;
     sum.most = calloc(count + 1, sizeof *sum.most);
     if (!sum.most)
@@ -834,6 +838,6 @@ ld_status ld_response_random(ld_response *self, double speed, const char *input,
     for (size_t i = 0; i < count; i++)
         rms[i] = sqrt(rms[i]);
     free(sum.most);
-    free(sum.z);
+    free(sum.room.z);
     return status;
 }

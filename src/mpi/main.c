@@ -20,6 +20,7 @@ static const command study_command = {
     .name = "study",
     .program = "launchdyn-mpi",
     .arguments = "FILE",
+    .words = 1,
     .summary = "Run the samples of a study on all processes that mpirun started",
     .about = "Each sample goes to the next free process; the first process stores the results in "
              "DIR. They equal those of launchdyn study bit for bit, and each of both programs "
@@ -140,7 +141,7 @@ static int run_command(int argc, char **argv, int process)
         command_complain("launchdyn-mpi has one command: study FILE --out DIR");
         return EXIT_INPUT;
     }
-    if (command_line_read(&line, &study_command, argc - 1, argv + 1, options, 1, &code)) {
+    if (command_line_read(&line, &study_command, argc - 1, argv + 1, options, &code)) {
         code = run_study(line.word[0], &wishes, process);
         options_end(&line);
     }

@@ -277,11 +277,11 @@ static ld_status load(ld_run *run, const void *bytes, size_t size)
     return launch_open_output(run);
 }
 
-static ld_status load_as(const ld_simulation *simulation, const ld_run_options *options,
-                         bool outside, const void *bytes, size_t size, ld_run **out,
-                         ld_error *error)
+// Loads into a run that has been created; NULL: there was no memory.
+static ld_status load_into(ld_run *run, const void *bytes, size_t size, ld_run **out,
+                           ld_error *error)
 {
-    ld_run *run = *out = run_create(simulation, options, outside);
+    *out = run;
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
     if (!run->status)
@@ -297,13 +297,13 @@ static ld_status load_as(const ld_simulation *simulation, const ld_run_options *
 ld_status ld_run_load(const ld_simulation *simulation, const ld_run_options *options,
                       const void *bytes, size_t size, ld_run **out, ld_error *error)
 {
-    return load_as(simulation, options, false, bytes, size, out, error);
+    return load_into(run_create(simulation, options, false), bytes, size, out, error);
 }
 
 ld_status run_load_exchange(const ld_simulation *simulation, const void *bytes, size_t size,
                             ld_run **out, ld_error *error)
 {
-    return load_as(simulation, NULL, true, bytes, size, out, error);
+    return load_into(run_create(simulation, NULL, true), bytes, size, out, error);
 }
 
 // ---- the end

@@ -98,8 +98,8 @@ static bool read_matrix(const group_reader *self)
             snprintf(path, sizeof path, "%s.matrix.%d.%d", self->path, i + 1, k + 1);
             if (cell->kind != NODE_SCALAR)
                 return refuse(self, rows, "matrix", "expected %s", wanted);
-            if (!quantity_read(self->reader, &number, cell->at, path, cell->text,
-                               &self->group->matrix[i][k], 1))
+            const written_value given = written_in(&number, cell, path);
+            if (!quantity_read(self->reader, &given, &self->group->matrix[i][k], 1))
                 return false;
         }
     }

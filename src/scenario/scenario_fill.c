@@ -65,8 +65,8 @@ static bool read_components(scenario_reader *reader, const field_row *f, const t
     const char *const *name = names + 4 - f->count;
     bool good = true, given[4] = {false};
     if (map->beneath && map->beneath->kind == NODE_SCALAR) {
-        good =
-            quantity_read(reader, f, map->beneath->at, path, map->beneath->text, values, f->count);
+        const written_value before = written_in(f, map->beneath, path);
+        good = quantity_read(reader, &before, values, f->count);
         given[0] = given[1] = given[2] = given[3] = true;
     }
     for (const tree_node *member = map->first; member; member = member->next) {
@@ -81,7 +81,8 @@ static bool read_components(scenario_reader *reader, const field_row *f, const t
                           f->count == 4 ? "w, " : "", f->count >= 3 ? "x, " : "");
             good = false;
         } else if (is_scalar(reader, f, member, key_path)) {
-            good &= quantity_read(reader, f, member->at, key_path, member->text, &values[i], 1);
+            const written_value component = written_in(f, member, key_path);
+            good &= quantity_read(reader, &component, &values[i], 1);
             given[i] = true;
         } else {
             good = false;
@@ -99,12 +100,12 @@ static void read_number(scenario_reader *reader, const field_row *f, const tree_
                         void *base, const char *path)
 {
     double *values = field_at(base, f);
+    const written_value given = written_in(f, value, path);
     bool good;
     if (value->kind == NODE_MAP && f->count > 1)
         good = read_components(reader, f, value, path, values);
     else
-        good = is_scalar(reader, f, value, path) &&
-               quantity_read(reader, f, value->at, path, value->text, values, f->count);
+        good = is_scalar(reader, f, value, path) && quantity_read(reader, &given, values, f->count);
     for (int i = 0; i < f->count && !good; i++)
         values[i] = NAN;
 }
@@ -158,13 +159,13 @@ static int choose(scenario_reader *reader, const field_row *f, const tree_node *
                   const char *path)
 {
     const field_word *word = field_word_find(f->words, value->text);
+    const written_value given = written_in(f, value, path);
     if (word)
         return word->value;
     word = word_for_number(f, value->text);
     if (!word)
         refuse_word(reader, f, f->words, value, path);
-    else if (quantity_read(reader, f, value->at, path, value->text,
-                           (double *)((char *)base + f->other), 1))
+    else if (quantity_read(reader, &given, (double *)((char *)base + f->other), 1))
         return word->value;
     return FIELD_WORD_REFUSED;
 }
@@ -257,8 +258,9 @@ static bool read_row(scenario_reader *reader, const field_row *f, const table_fo
     for (const tree_node *cell = row->first; cell; cell = cell->next, k++) {
         const field_row *column = &format->column[k];
         join(cell_path, path, column->name);
+        const written_value given = written_in(column, cell, cell_path);
         good &= is_scalar(reader, column, cell, cell_path) &&
-                quantity_read(reader, column, cell->at, cell_path, cell->text, &values[k], 1);
+                quantity_read(reader, &given, &values[k], 1);
     }
     return good;
 }
@@ -310,8 +312,8 @@ static bool read_constant(scenario_reader *reader, const field_row *f, const tre
         reader->no_memory = true;
         return false;
     }
-    return quantity_read(reader, &f->table->column[columns - 1], value->at, path, value->text,
-                         &table->data[columns - 1], 1);
+    const written_value given = written_in(&f->table->column[columns - 1], value, path);
+    return quantity_read(reader, &given, &table->data[columns - 1], 1);
 }
 
 static bool ends_with(const char *text, const char *ending)
@@ -324,6 +326,7 @@ static bool read_table_file(scenario_reader *reader, const field_row *f, const t
                             void *base, const char *path)
 {
     ld_table *table = field_at(base, f);
+    const written_value given = written_in(f, value, path);
     bool sounding = false;
     bool known = (f->table->sources & TABLE_CSV && ends_with(value->text, ".csv")) ||
                  (f->table->sources & TABLE_ENGINE && ends_with(value->text, ".eng")) ||
@@ -331,8 +334,7 @@ static bool read_table_file(scenario_reader *reader, const field_row *f, const t
                  (f->table->sources & TABLE_SOUNDING && ends_with(value->text, ".txt"));
     if (!known)
         refuse_value(reader, f, value, path);
-    if (!known || !table_file_read(reader, f, value->at, path, value->text, table,
-                                   field_clock(base, f), &sounding))
+    if (!known || !table_file_read(reader, &given, table, field_clock(base, f), &sounding))
         return false;
     if (sounding && f->other && field_switch(base, f) == LD_WIND_LAUNCHER) {
         reader_refuse(reader, value->at, path,

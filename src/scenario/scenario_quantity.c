@@ -87,14 +87,16 @@ static quantity split(const char *text, int most)
 }
 
 // Says what is wrong with the unit.
-static void refuse_unit(scenario_reader *reader, const field_row *f, text_place place,
-                        const char *path, const char *text, const char *unit, units_result result,
-                        const char *unknown)
+static void refuse_unit(scenario_reader *reader, const written_value *given, const char *unit,
+                        units_result result, const char *unknown)
 {
+    const field_row *f = given->field;
+    text_place place = given->at;
+    const char *path = given->path;
     char found[64], quoted[64], expected[256];
     const char *likely = result == UNITS_UNKNOWN ? units_suggestion(unknown) : NULL;
     field_expectation(f, expected, sizeof expected);
-    reader_quote(text, found);
+    reader_quote(given->text, found);
     if (unit[0] == ',')
         reader_refuse(reader, place, path, "found %s; decimals are written with a point", found);
     else if (!f->unit[0])
@@ -116,9 +118,9 @@ static void refuse_unit(scenario_reader *reader, const field_row *f, text_place 
 }
 
 // Factor of the quantity's unit; NaN after a message.
-static double unit_factor(scenario_reader *reader, const field_row *f, text_place place,
-                          const char *path, const char *text, const char *rest)
+static double unit_factor(scenario_reader *reader, const written_value *given, const char *rest)
 {
+    const field_row *f = given->field;
     char unit[64], unknown[32] = "", found[64], expected[256];
     double factor = 1;
     size_t length = strlen(rest);
@@ -126,8 +128,8 @@ static double unit_factor(scenario_reader *reader, const field_row *f, text_plac
         length--;
     if (length == 0 && f->unit[0]) {
         field_expectation(f, expected, sizeof expected);
-        reader_refuse(reader, place, path, "found %s without a unit; expected %s",
-                      reader_quote(text, found), expected);
+        reader_refuse(reader, given->at, given->path, "found %s without a unit; expected %s",
+                      reader_quote(given->text, found), expected);
         return NAN;
     }
     if (length == 0)
@@ -137,18 +139,21 @@ static double unit_factor(scenario_reader *reader, const field_row *f, text_plac
         length > 60 ? UNITS_SYNTAX : units_factor(unit, f->unit, &factor, unknown);
     if (result == UNITS_OK && (f->unit[0] || strcmp(unit, "%") == 0))
         return factor;
-    refuse_unit(reader, f, place, path, text, unit, result, unknown);
+    refuse_unit(reader, given, unit, result, unknown);
     return NAN;
 }
 
-bool quantity_read(scenario_reader *reader, const field_row *f, text_place place, const char *path,
-                   const char *text, double *values, int count)
+bool quantity_read(scenario_reader *reader, const written_value *given, double *values, int count)
 {
     char found[64], expected[256];
-    quantity q = split(text, count);
-    field_row single = *f;
+    text_place place = given->at;
+    const char *path = given->path;
+    quantity q = split(given->text, count);
+    field_row single = *given->field;
+    written_value counted = *given;
     single.count = count;
-    reader_quote(text, found);
+    counted.field = &single;
+    reader_quote(given->text, found);
     field_expectation(&single, expected, sizeof expected);
     if (q.reason) {
         reader_refuse(reader, place, path, "found %s, %s; expected %s", found, q.reason, expected);
@@ -163,7 +168,7 @@ bool quantity_read(scenario_reader *reader, const field_row *f, text_place place
                       q.count > 1 ? "s" : "", expected);
         return false;
     }
-    double factor = unit_factor(reader, &single, place, path, text, q.unit);
+    double factor = unit_factor(reader, &counted, q.unit);
     if (isnan(factor))
         return false;
     for (int i = 0; i < count; i++) {
@@ -172,7 +177,7 @@ bool quantity_read(scenario_reader *reader, const field_row *f, text_place place
         const char *size = large   ? ", which is too large in SI units"
                            : small ? ", which is too small in SI units"
                                    : "";
-        if (large || small || !field_in_range(f->range, values[i])) {
+        if (large || small || !field_in_range(single.range, values[i])) {
             reader_refuse(reader, place, path, "found %s%s; expected %s", found, size, expected);
             return false;
         }

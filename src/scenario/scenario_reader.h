@@ -186,16 +186,29 @@ tree_node *sweep_lay(scenario_reader *reader, tree_node *root, const scenario_ax
 // Puts the axes into the model, with their values as text.
 void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *model);
 
-// Reads a value of `f`, "15 km/h" or "0 0 1 m", in SI into `values`; false after a message.
-bool quantity_read(scenario_reader *reader, const struct field_row *f, text_place place,
-                   const char *path, const char *text, double *values, int count);
+// A value as it is written, where, and the field that it is one of.
+typedef struct written_value {
+    const struct field_row *field;
+    text_place at;
+    const char *path; // of its key
+    const char *text;
+} written_value;
 
-// Reads the table `f` from the file `name` (beside the file that names it), a RASP .eng file, a
-// RockSim .rse file, a CSV file or a sounding's text by the ending of its name; `sounding`: whether
-// it was one. Messages about what it holds point into it. False after a message.
-bool table_file_read(scenario_reader *reader, const struct field_row *f, text_place place,
-                     const char *path, const char *name, ld_table *table, double *clock,
-                     bool *sounding);
+// The text of a scalar.
+static inline written_value written_in(const struct field_row *field, const tree_node *scalar,
+                                       const char *path)
+{
+    return (written_value){field, scalar->at, path, scalar->text};
+}
+
+// Reads `count` numbers, "15 km/h" or "0 0 1 m", in SI into `values`; false after a message.
+bool quantity_read(scenario_reader *reader, const written_value *given, double *values, int count);
+
+// Reads a table from the file that the text names (beside the file that names it), a RASP .eng
+// file, a RockSim .rse file, a CSV file or a sounding's text by the ending of its name; `sounding`:
+// whether it was one. Messages about what it holds point into it. False after a message.
+bool table_file_read(scenario_reader *reader, const written_value *given, ld_table *table,
+                     double *clock, bool *sounding);
 // The file that the text at `place` names, read once in a run and kept in reader->source; NULL
 // after a message at `place`.
 text_source *reader_open(scenario_reader *reader, text_place place, const char *path,

@@ -18,6 +18,12 @@ typedef struct factor_reader {
     ld_factor *factor;
 } factor_reader;
 
+// What numbers are: their unit and range.
+typedef struct number_kind {
+    const char *unit;
+    field_range range;
+} number_kind;
+
 // Keys of a factor: its distribution, and what goes with it.
 #define WORD(name, word, given, traits) word,
 static const char *const key_names[] = {LD_DISTRIBUTIONS(WORD) "within", "between", "weights",
@@ -33,20 +39,24 @@ static const char *path_of(const factor_reader *self, const char *key, char *pat
     return path;
 }
 
-// Reads `count` numbers of the key `node`, in the unit given.
+// Reads `count` numbers of the key `node` from `text`.
 static bool read_numbers(const factor_reader *self, const tree_node *node, const char *text,
-                         const char *unit, field_range range, double *values, int count)
+                         number_kind kind, double *values, int count)
 {
     char path[256], expected[192];
-    field_row row = {
-        .name = node->key, .kind = FIELD_NUMBER, .unit = unit, .range = range, .count = count};
+    field_row row = {.name = node->key,
+                     .kind = FIELD_NUMBER,
+                     .unit = kind.unit,
+                     .range = kind.range,
+                     .count = count};
     path_of(self, node->key ? node->key : "discrete", path, sizeof path);
     if (node->kind != NODE_SCALAR || tree_is_empty(node)) {
         field_expectation(&row, expected, sizeof expected);
         reader_refuse(self->reader, node->at, path, "expected %s", expected);
         return false;
     }
-    return quantity_read(self->reader, &row, node->at, path, text, values, count);
+    const written_value given = {&row, node->at, path, text};
+    return quantity_read(self->reader, &given, values, count);
 }
 
 // Two values, the first the smaller.
@@ -54,7 +64,7 @@ static bool read_ends(const factor_reader *self, const tree_node *node, field_ra
                       double ends[2])
 {
     char path[256];
-    if (!read_numbers(self, node, node->text, self->number.unit, range, ends, 2))
+    if (!read_numbers(self, node, node->text, (number_kind){self->number.unit, range}, ends, 2))
         return false;
     if (ends[0] < ends[1])
         return true;
@@ -67,14 +77,14 @@ static bool read_uniform(const factor_reader *self, const tree_node *node)
 {
     ld_factor *factor = self->factor;
     if (node->kind == NODE_SCALAR && strncmp(node->text, "+-", 2) == 0)
-        return read_numbers(self, node, node->text + 2, self->number.unit, positive,
+        return read_numbers(self, node, node->text + 2, (number_kind){self->number.unit, positive},
                             &factor->spread, 1);
     return read_ends(self, node, self->number.range, factor->between);
 }
 
 // A list of values with the key's unit, or of weights.
-static bool read_values(const factor_reader *self, const tree_node *list, const char *unit,
-                        field_range range, double *values, int *count)
+static bool read_values(const factor_reader *self, const tree_node *list, number_kind kind,
+                        double *values, int *count)
 {
     char path[256];
     int number = 0;
@@ -85,7 +95,7 @@ static bool read_values(const factor_reader *self, const tree_node *list, const 
         return false;
     }
     for (const tree_node *entry = list->first; entry; entry = entry->next)
-        if (!read_numbers(self, entry, entry->text, unit, range, &values[number++], 1))
+        if (!read_numbers(self, entry, entry->text, kind, &values[number++], 1))
             return false;
     *count = number;
     return true;
@@ -95,9 +105,9 @@ static bool read_discrete(const factor_reader *self, const tree_node *node, bool
 {
     ld_factor *factor = self->factor;
     char path[256];
+    const number_kind own = {self->number.unit, self->number.range};
     path_of(self, "discrete", path, sizeof path);
-    if (!read_values(self, node, self->number.unit, self->number.range, factor->value,
-                     &factor->value_count))
+    if (!read_values(self, node, own, factor->value, &factor->value_count))
         return false;
     for (int i = 0; i < factor->value_count; i++) {
         factor->weight[i] = 1;
@@ -111,7 +121,7 @@ static bool read_discrete(const factor_reader *self, const tree_node *node, bool
         return true;
     int count;
     double sum = 0;
-    if (!read_values(self, weights, "", not_negative, factor->weight, &count))
+    if (!read_values(self, weights, (number_kind){"", not_negative}, factor->weight, &count))
         return false;
     for (int i = 0; i < count; i++)
         sum += factor->weight[i];
@@ -145,12 +155,12 @@ static bool read_word(const factor_reader *self, const tree_node *node, const ch
 // Reads the numbers of the distribution `node`.
 static bool read_distribution(const factor_reader *self, const tree_node *node, bool whole)
 {
+    const number_kind own = {self->number.unit, positive}, ratio = {"", positive};
     switch (distribution_of(self->factor->distribution)->given) {
     case LD_GIVEN_DEVIATION:
-        return read_numbers(self, node, node->text, self->number.unit, positive,
-                            &self->factor->deviation, 1);
+        return read_numbers(self, node, node->text, own, &self->factor->deviation, 1);
     case LD_GIVEN_RATIO:
-        return read_numbers(self, node, node->text, "", positive, &self->factor->deviation, 1);
+        return read_numbers(self, node, node->text, ratio, &self->factor->deviation, 1);
     case LD_GIVEN_SPAN:
         return read_uniform(self, node);
     case LD_GIVEN_VALUES:
@@ -166,6 +176,7 @@ static bool read_bounds(const factor_reader *self)
 {
     const tree_node *within = tree_member(self->map, "within");
     const tree_node *between = tree_member(self->map, "between");
+    const number_kind deviations = {"", positive};
     char path[256];
     if (within && between) {
         reader_refuse(self->reader, between->key_at, path_of(self, "between", path, sizeof path),
@@ -173,7 +184,7 @@ static bool read_bounds(const factor_reader *self)
         return false;
     }
     return (!within ||
-            read_numbers(self, within, within->text, "", positive, &self->factor->within, 1)) &&
+            read_numbers(self, within, within->text, deviations, &self->factor->within, 1)) &&
            (!between || read_ends(self, between, any, self->factor->between));
 }
 
@@ -308,21 +319,16 @@ static void read_factor(scenario_reader *reader, const tree_node *node, const ld
         reader_refuse(reader, node->key_at, self.path, "%s", why);
 }
 
-// Refuses number `number` of the last factor where it is one of factor `i` too, below `end`.
-static void refuse_same(scenario_reader *reader, const tree_node *node, const ld_scatter *scatter,
-                        int last, int number, int i, int end)
+// Refuses a number of a factor that is one of those before it.
+static void refuse_same(scenario_reader *reader, const tree_node *node, const ld_factor *factor,
+                        const char *number)
 {
-    const char *own = factor_path(&scatter->factor[last], number);
-    for (int k = 0; k < end; k++) {
-        char path[LD_MAX_PATH + 64];
-        if (strcmp(factor_path(&scatter->factor[i], k), own) != 0)
-            continue;
-        snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
-        if (scatter->factor[last].together.count)
-            reader_refuse(reader, node->key_at, path, "%s is given above already", own);
-        else
-            reader_refuse(reader, node->key_at, path, "is the same key as %s above", own);
-    }
+    char path[LD_MAX_PATH + 64];
+    snprintf(path, sizeof path, "scatter.factors.%.*s", LD_MAX_PATH, node->key);
+    if (factor->together.count)
+        reader_refuse(reader, node->key_at, path, "%s is given above already", number);
+    else
+        reader_refuse(reader, node->key_at, path, "is the same key as %s above", number);
 }
 
 // Refuses a number that is scattered twice, by the last factor or by one before it.
@@ -330,10 +336,16 @@ static void refuse_double(scenario_reader *reader, const tree_node *node, const 
                           int last)
 {
     const ld_factor *factor = &scatter->factor[last];
-    for (int number = 0; factor->path[0] && number < factor_numbers(factor); number++)
-        for (int i = 0; i <= last; i++)
-            refuse_same(reader, node, scatter, last, number, i,
-                        i < last ? factor_numbers(&scatter->factor[i]) : number);
+    for (int number = 0; factor->path[0] && number < factor_numbers(factor); number++) {
+        const char *own = factor_path(factor, number);
+        for (int i = 0; i <= last; i++) {
+            const ld_factor *other = &scatter->factor[i];
+            int end = i < last ? factor_numbers(other) : number;
+            for (int k = 0; k < end; k++)
+                if (strcmp(factor_path(other, k), own) == 0)
+                    refuse_same(reader, node, factor, own);
+        }
+    }
 }
 
 static void fill_factors(scenario_reader *reader, const tree_node *factors, ld_model *model)

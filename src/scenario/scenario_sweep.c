@@ -26,13 +26,21 @@ static bool overlap(const char *a, const char *b)
            (!b[length] || b[length] == '.');
 }
 
-static bool is_overridden(const tree_node *root, const char *path, const char *const *sets,
-                          size_t count)
+// A sweep while it is read: its scenario, the overrides, the axes so far.
+typedef struct sweep_reader {
+    scenario_reader *reader;
+    const tree_node *root;
+    const char *const *sets;
+    size_t set_count;
+    scenario_sweep sweep;
+} sweep_reader;
+
+static bool is_overridden(const sweep_reader *self, const char *path)
 {
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < self->set_count; i++) {
         char set[READER_MAX_PATH], full_path[READER_MAX_PATH];
-        snprintf(set, sizeof set, "%.*s", (int)strcspn(sets[i], "="), sets[i]);
-        tree_path(root, set, full_path);
+        snprintf(set, sizeof set, "%.*s", (int)strcspn(self->sets[i], "="), self->sets[i]);
+        tree_path(self->root, set, full_path);
         if (strcmp(full_path, path) == 0)
             return true;
     }
@@ -58,17 +66,17 @@ static bool is_compatible(scenario_reader *reader, const scenario_axis *axis,
 }
 
 // Whether a key can be swept beside those before it, on its own axis too.
-static bool may_be_swept(scenario_reader *reader, const scenario_sweep *before,
-                         const scenario_axis *axis, const char *path)
+static bool may_be_swept(const sweep_reader *self, const scenario_axis *axis, const char *path)
 {
+    scenario_reader *reader = self->reader;
     static const char *const own[] = {"launchdyn", "include", "scatter", "sweep"};
     const tree_node *node = axis->node;
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (overlap(path, own[i]))
             return refuse(reader, node->key_at, node->key,
                           "keys of the study itself cannot be swept%s", "");
-    for (int i = 0; i < before->count; i++)
-        if (!is_compatible(reader, axis, &before->axis[i], path))
+    for (int i = 0; i < self->sweep.count; i++)
+        if (!is_compatible(reader, axis, &self->sweep.axis[i], path))
             return false;
     if (strlen(path) >= LD_MAX_PATH)
         return refuse(reader, node->key_at, node->key, "the path is too long%s", "");
@@ -108,22 +116,20 @@ static bool can_be_laid(scenario_reader *reader, const scenario_axis *axis)
 }
 
 // Adds a key, written so, to the axis; false after a message, or where an override has it.
-static bool add_key(scenario_reader *reader, const tree_node *root, const scenario_sweep *before,
-                    const char *const *sets, size_t count, scenario_axis *axis, const char *written)
+static bool add_key(const sweep_reader *self, scenario_axis *axis, const char *written)
 {
     char path[READER_MAX_PATH];
-    tree_path(root, written, path);
-    if (is_overridden(root, path, sets, count) || !may_be_swept(reader, before, axis, path))
+    tree_path(self->root, written, path);
+    if (is_overridden(self, path) || !may_be_swept(self, axis, path))
         return false;
     snprintf(axis->keys.path[axis->keys.count++], LD_MAX_PATH, "%.*s", LD_MAX_PATH - 1, path);
     return true;
 }
 
 // What the member `node` of the sweep varies; false after a message, or where an override has it.
-static bool read_axis(scenario_reader *reader, const tree_node *root, const scenario_sweep *before,
-                      const char *const *sets, size_t count, const tree_node *node,
-                      scenario_axis *axis)
+static bool read_axis(const sweep_reader *self, const tree_node *node, scenario_axis *axis)
 {
+    scenario_reader *reader = self->reader;
     static const char *const keys[] = {"paths", "values"};
     bool several = node->kind == NODE_MAP && tree_member(node, "paths");
     char path[READER_MAX_PATH];
@@ -132,12 +138,12 @@ static bool read_axis(scenario_reader *reader, const tree_node *root, const scen
         return false;
     *axis = (scenario_axis){.node = node, .list = several ? tree_member(node, "values") : node};
     if (!several)
-        return add_key(reader, root, before, sets, count, axis, node->key) &&
-               has_values(reader, axis) && can_be_laid(reader, axis);
+        return add_key(self, axis, node->key) && has_values(reader, axis) &&
+               can_be_laid(reader, axis);
     axis->paths = together_paths(reader, node, path);
     const tree_node *entry = axis->paths ? axis->paths->first : NULL;
     for (; entry; entry = entry->next)
-        if (!add_key(reader, root, before, sets, count, axis, entry->text))
+        if (!add_key(self, axis, entry->text))
             return false;
     return axis->paths && has_values(reader, axis) && can_be_laid(reader, axis);
 }
@@ -146,29 +152,30 @@ scenario_sweep sweep_find(scenario_reader *reader, const tree_node *root, const 
                           size_t count)
 {
     const tree_node *block = root->kind == NODE_MAP ? tree_member(root, "sweep") : NULL;
-    scenario_sweep sweep = {0};
+    sweep_reader self = {.reader = reader, .root = root, .sets = sets, .set_count = count};
+    scenario_sweep *sweep = &self.sweep;
     long points = 1;
     if (!block)
-        return sweep;
+        return *sweep;
     if (block->kind != NODE_MAP || block->count == 0) {
         reader_refuse(reader, block->key_at, "sweep",
                       "expected paths with lists of values, such as "
                       "base.speed: [0 km/h, 15 km/h]");
-        return sweep;
+        return *sweep;
     }
-    sweep.axis = pool_take(reader, (size_t)block->count * sizeof *sweep.axis);
-    for (const tree_node *node = block->first; node && sweep.axis; node = node->next) {
-        scenario_axis *axis = &sweep.axis[sweep.count];
-        if (!read_axis(reader, root, &sweep, sets, count, node, axis))
+    sweep->axis = pool_take(reader, (size_t)block->count * sizeof *sweep->axis);
+    for (const tree_node *node = block->first; node && sweep->axis; node = node->next) {
+        scenario_axis *axis = &sweep->axis[sweep->count];
+        if (!read_axis(&self, node, axis))
             continue;
-        sweep.count++;
+        sweep->count++;
         points = points > LD_MAX_POINTS ? points : points * axis->list->count;
     }
     if (points > LD_MAX_POINTS) {
         reader_refuse(reader, block->key_at, "sweep", "has more than %d points", LD_MAX_POINTS);
-        sweep.count = 0;
+        sweep->count = 0;
     }
-    return sweep;
+    return *sweep;
 }
 
 tree_node *sweep_lay(scenario_reader *reader, tree_node *root, const scenario_axis *axis,

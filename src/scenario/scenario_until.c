@@ -51,7 +51,8 @@ static void read_half_width(scenario_reader *reader, const tree_node *node, cons
     size_t length = strlen(node->text);
     until->relative = node->text[length - 1] == '%';
     row.unit = until->relative ? "" : unit;
-    quantity_read(reader, &row, node->at, path, node->text, &until->half_width, 1);
+    const written_value given = written_in(&row, node, path);
+    quantity_read(reader, &given, &until->half_width, 1);
 }
 
 static void read_until(scenario_reader *reader, const tree_node *node,

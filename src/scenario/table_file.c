@@ -185,12 +185,13 @@ static void read_csv(line_reader *lines, const table_format *format, ld_table *t
         line_refuse(lines, 0, "found no row of numbers");
 }
 
-bool table_file_read(scenario_reader *reader, const field_row *f, text_place place,
-                     const char *path, const char *name, ld_table *table, double *clock,
-                     bool *sounding)
+bool table_file_read(scenario_reader *reader, const written_value *given, ld_table *table,
+                     double *clock, bool *sounding)
 {
-    text_source *opened = reader_open(reader, place, path, name);
-    line_reader lines = {.reader = reader, .path = path, .source = opened, .clock = clock};
+    const char *name = given->text;
+    const table_format *format = given->field->table;
+    text_source *opened = reader_open(reader, given->at, given->path, name);
+    line_reader lines = {.reader = reader, .path = given->path, .source = opened, .clock = clock};
     if (!opened)
         return false;
     lines.at = text_lines_begin(opened->text, opened->length);
@@ -198,11 +199,11 @@ bool table_file_read(scenario_reader *reader, const field_row *f, text_place pla
     if (strcmp(name + length - 4, ".eng") == 0)
         read_rasp(&lines, table);
     else if (strcmp(name + length - 4, ".rse") == 0)
-        rocksim_read(&lines, f->table, table);
+        rocksim_read(&lines, format, table);
     else if (strcmp(name + length - 4, ".txt") == 0)
-        sounding_read_text(&lines, f->table, table);
+        sounding_read_text(&lines, format, table);
     else
-        read_csv(&lines, f->table, table);
+        read_csv(&lines, format, table);
     *sounding = lines.sounding;
     return !lines.failed;
 }

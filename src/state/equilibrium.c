@@ -109,13 +109,15 @@ typedef struct problem {
     const launching_phase *phase;
     int first, count;
     bool dead;
-    double spring;                     // [1/s2] holds the rocket's freedoms
-    const rocket_place *place;         // to where it is in space, or, NULL,
-    double rest[SHOE_FREEDOMS];        // where it is in the guide
-    const carried_directions *carried; // less what surfaces carry; NULL: all
-    double h;                          // [m, rad, ...] step of the differences
-    double *jacobian;                  // [count + 1][count + 1] of Newton's method, by columns
-    const base_frame *going; // the base as it moves where it is not held still: through the air
+    double spring;              // [1/s2] holds the rocket's freedoms
+    const rocket_place *place;  // to where it is in space, or, NULL,
+    double rest[SHOE_FREEDOMS]; // where it is in the guide
+    bool less_carried;          // less what surfaces carry, else all
+    carried_directions carried; // what they do
+    double accepted;            // [m/s2] residual of a state at rest
+    double h;                   // [m, rad, ...] step of the differences
+    double *jacobian;           // [count + 1][count + 1] of Newton's method, by columns
+    const base_frame *going;    // the base as it moves where it is not held still: through the air
 } problem;
 
 // Wrench on the platform of tube, tail and rocket as rigid bodies at rest, about T's origin, in T.
@@ -168,8 +170,8 @@ static void off_its_place(const problem *the, const double *y, double off[SHOE_F
     const double *x = y + the->self->launcher.launching.layout.x + X_Y;
     for (int i = 0; i < SHOE_FREEDOMS; i++)
         off[i] = x[i] - the->rest[i];
-    if (the->carried)
-        carried_remove(the->carried, off);
+    if (the->less_carried)
+        carried_remove(&the->carried, off);
 }
 
 // Accelerations of tube and rocket that the lock and the slot leave free.
@@ -483,8 +485,7 @@ static double solve_newton(const problem *the, double *y)
 // Newton's method from one pair of carrying adaptors after the other, the outermost first, until
 // one succeeds. `start` has the base in its place. Returns the smallest residual; its state is in
 // y.
-static double try_pairs(const problem *the, const double *start, double extra, double accepted,
-                        double *y)
+static double try_pairs(const problem *the, const double *start, double extra, double *y)
 {
     const launch_state *self = the->self;
     double best = INFINITY, trial[LD_MAX_STATES];
@@ -502,7 +503,7 @@ static double try_pairs(const problem *the, const double *start, double extra, d
                 best = reached;
                 memcpy(y, trial, size);
             }
-            if (best <= accepted)
+            if (best <= the->accepted)
                 return best;
         }
     return best;
@@ -521,10 +522,10 @@ static double held_by_spring(const problem *the, const double *y, int *worst)
 }
 
 // Whether Newton's method has found in y a state that the spring need not hold.
-static bool is_at_rest(const problem *the, const double *y, double reached, double accepted)
+static bool is_at_rest(const problem *the, const double *y, double reached)
 {
     int unused;
-    return reached <= accepted && held_by_spring(the, y, &unused) <= accepted;
+    return reached <= the->accepted && held_by_spring(the, y, &unused) <= the->accepted;
 }
 
 // What nothing carries, as in an upright tube, stays on the axis: a spring, which must find nothing
@@ -580,14 +581,13 @@ static void guess_leaning(const launch_state *self, int i, int j, v3 pull, doubl
 }
 
 // `best`: what the state in y has reached.
-static double try_leaning(const problem *the, const double *start, double accepted, double best,
-                          double *y)
+static double try_leaning(const problem *the, const double *start, double best, double *y)
 {
     double trial[LD_MAX_STATES];
     const launcher_system *launcher = &the->self->launcher;
     v3 pull = pull_at(the->self, the->t, start);
     for (int j = launcher->launching.adaptors.count - 1; j >= 0; j--)
-        for (int i = 0; i < j + (pull.x > 0) && best > accepted; i++) {
+        for (int i = 0; i < j + (pull.x > 0) && best > the->accepted; i++) {
             if (the->phase->passed[i] || the->phase->passed[j])
                 continue;
             guess_straight(the, start, trial);
@@ -602,20 +602,21 @@ static double try_leaning(const problem *the, const double *start, double accept
 }
 
 // The rocket upright: on the axis where nothing pulls it off, else leaning.
-static double try_upright(const problem *the, const double *start, double accepted, double *y)
+static double try_upright(const problem *the, const double *start, double *y)
 {
     double best = try_centred(the, start, 0, y);
-    if (best <= accepted)
+    if (best <= the->accepted)
         return best;
     // what carries little is pressed in by little
     problem fine = *the;
-    for (fine.h = 1e-9; fine.h > 1e-13 && best > 1e-3 * accepted; fine.h *= 0.1)
-        best = try_leaning(&fine, start, 1e-3 * accepted, best, y);
+    fine.accepted = 1e-3 * the->accepted;
+    for (fine.h = 1e-9; fine.h > 1e-13 && best > fine.accepted; fine.h *= 0.1)
+        best = try_leaning(&fine, start, best, y);
     return best;
 }
 
 // Which directions the surfaces carry in y.
-static void find_carried(const problem *the, const double *y, carried_directions *carried)
+static void find_carried(problem *the, const double *y)
 {
     const launch_state *self = the->self;
     launcher_input input;
@@ -623,15 +624,15 @@ static void find_carried(const problem *the, const double *y, carried_directions
     simulation_input(self, the->t, y, &input);
     launcher_evaluate(&self->launcher, &input, the->phase, y, &out);
     carried_find(&self->launcher.launching, the->phase, &out.launching, rocket_freedoms(self) > 4,
-                 carried);
+                 &the->carried);
 }
 
 // newton_whole() from the guess in `from`, with finer and finer differences: a surface that carries
 // little is pressed in by little.
-static double newton_fine(problem *the, const double *from, double accepted, double *y)
+static double newton_fine(problem *the, const double *from, double *y)
 {
     double reached = INFINITY;
-    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= accepted); the->h *= 0.1) {
+    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= the->accepted); the->h *= 0.1) {
         memcpy(y, from, (size_t)the->self->launcher.state_count * sizeof(double));
         reached = newton_whole(the, y);
     }
@@ -680,7 +681,7 @@ static bool is_far(const launch_state *self, const double *from, const double *t
 // to where it is, then to where that took it, softer each time. Back over a top leads no way that
 // gravity takes: the spring was too soft, as where Newton's method finds none. Ends where the
 // spring has nothing to hold, or away from the guide. Returns the residual.
-static double release_and_settle(const problem *the, double accepted, double *y)
+static double release_and_settle(const problem *the, double *y)
 {
     const double softest = 1e-3, hardest = 1e9;
     const rocket_mass *rocket = &the->self->motor->full;
@@ -694,9 +695,9 @@ static double release_and_settle(const problem *the, double accepted, double *y)
     for (int step = 0; step < most && held.spring < hardest; step++) {
         rocket_place place = place_of(the->self, y);
         held.place = &place;
-        double reached = newton_fine(&held, y, accepted, trial);
+        double reached = newton_fine(&held, y, trial);
         off_its_place(&held, trial, off);
-        if (reached > accepted || is_far(the->self, y, trial) ||
+        if (reached > the->accepted || is_far(the->self, y, trial) ||
             in_common(rocket, off, before) < 0) {
             best = fmin(best, reached);
             held.spring /= ease * ease;
@@ -705,7 +706,7 @@ static double release_and_settle(const problem *the, double accepted, double *y)
         }
         memcpy(y, trial, sizeof trial);
         memcpy(before, off, sizeof off);
-        if (held_by_spring(&held, y, &unused) <= 0.1 * accepted || is_away(the, y))
+        if (held_by_spring(&held, y, &unused) <= 0.1 * the->accepted || is_away(the, y))
             return reached;
         held.spring = fmax(softest, ease * held.spring);
         ease = fmax(0.1, ease * ease);
@@ -718,19 +719,19 @@ static double release_and_settle(const problem *the, double accepted, double *y)
 // where gravity and the air take it. What the surfaces that it touches do not carry is centred if
 // it also rests there, else it stays where it came to.
 static double find_beside(problem *the, const double *start, double depth, const double *nudge,
-                          carried_directions *carried, double accepted, double *y)
+                          double *y)
 {
     const launch_state *self = the->self;
     double found[LD_MAX_STATES];
     the->rest[0] = self->launcher.launching.surfaces.line_y;
     the->rest[1] = self->launcher.launching.surfaces.line_z;
-    *carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
-    the->carried = NULL;
+    the->carried = (carried_directions){.scale = {1, 1, 1, 1, 1}};
+    the->less_carried = false;
     the->spring = 0;
     the->h = DIFFERENCE;
     if (!nudge && is_upright(the, start)) {
         double centred = try_centred(the, start, depth, y);
-        if (centred <= accepted)
+        if (centred <= the->accepted)
             return centred;
     }
     problem tube = *the;
@@ -739,20 +740,20 @@ static double find_beside(problem *the, const double *start, double depth, const
     found[self->launcher.launching.layout.x + X_S] -= depth;
     for (int i = 0; i < SHOE_FREEDOMS && nudge; i++)
         found[self->launcher.launching.layout.x + X_Y + i] += nudge[i];
-    double reached = release_and_settle(&tube, accepted, found);
-    if (the->count > tube.count && reached <= accepted)
-        reached = release_and_settle(the, accepted, found);
+    double reached = release_and_settle(&tube, found);
+    if (the->count > tube.count && reached <= the->accepted)
+        reached = release_and_settle(the, found);
     memcpy(y, found, sizeof found);
-    the->carried = carried;
+    the->less_carried = true;
     the->spring = 1e4;
-    if (!(reached <= accepted) || is_away(the, y))
+    if (!(reached <= the->accepted) || is_away(the, y))
         return reached;
-    find_carried(the, found, carried);
+    find_carried(the, found);
     for (int i = 0; i < 2; i++) {
-        reached = newton_fine(the, found, accepted, y);
+        reached = newton_fine(the, found, y);
         for (int again = 0; again < 3; again++) // each ends at the first small gain
             reached = fmin(reached, newton(the, y));
-        if (is_at_rest(the, y, reached, accepted))
+        if (is_at_rest(the, y, reached))
             break;
         memcpy(the->rest, found + self->launcher.launching.layout.x + X_Y, sizeof the->rest);
     }
@@ -762,22 +763,18 @@ static double find_beside(problem *the, const double *start, double depth, const
 // The same from the centred place and, where that finds nothing, from beside it: centred, Newton's
 // method stands at the kink of surfaces that are touched without play. Where both find nothing,
 // what is left is that of the centred place.
-static double find_on_surfaces(problem *the, const double *start, double depth,
-                               carried_directions *carried, double accepted, double *y)
+static double find_on_surfaces(problem *the, const double *start, double depth, double *y)
 {
     const double aside[SHOE_FREEDOMS] = {1e-4};
-    double reached = find_beside(the, start, depth, NULL, carried, accepted, y);
-    if (is_at_rest(the, y, reached, accepted))
+    double reached = find_beside(the, start, depth, NULL, y);
+    if (is_at_rest(the, y, reached))
         return reached;
     problem again = *the;
-    carried_directions other;
     double found[LD_MAX_STATES];
-    double next = find_beside(&again, start, depth, aside, &other, accepted, found);
-    if (!is_at_rest(&again, found, next, accepted))
+    double next = find_beside(&again, start, depth, aside, found);
+    if (!is_at_rest(&again, found, next))
         return reached;
-    *carried = other;
     *the = again;
-    the->carried = carried;
     memcpy(y, found, sizeof found);
     return next;
 }
@@ -799,18 +796,16 @@ static void mirror(const launch_state *self, const double off[PLACES], double re
 
 // Whether a rocket that is released at `from` comes to rest, at `to` from the guide line, elsewhere
 // than at `off`, where it rests in y.
-static bool rests_elsewhere(const problem *the, const double *start, double accepted,
-                            const double *y, const double *from, const double off[PLACES],
-                            double to[PLACES])
+static bool rests_elsewhere(const problem *the, const double *start, const double *y,
+                            const double *from, const double off[PLACES], double to[PLACES])
 {
     const double apart = 1e-5; // [m, rad]
     const launching_system *launching = &the->self->launcher.launching;
     const int at = launching->layout.x;
     problem other = *the;
-    carried_directions carried;
     double found[LD_MAX_STATES], depth = the->self->rocket->start_at - y[at + X_S];
-    double reached = find_beside(&other, start, depth, from, &carried, accepted, found);
-    if (!is_at_rest(&other, found, reached, accepted))
+    double reached = find_beside(&other, start, depth, from, found);
+    if (!is_at_rest(&other, found, reached))
         return false;
     bool elsewhere = false;
     for (int i = 0; i < PLACES; i++) {
@@ -823,8 +818,8 @@ static bool rests_elsewhere(const problem *the, const double *start, double acce
 // Whether a rocket that leans in an upright guide would also rest elsewhere: started on the other
 // side of the guide line, then with its rear or its front there, it stays away from where it rests
 // in y.
-static void search_elsewhere(const problem *the, const double *start, double accepted,
-                             const double *y, ld_equilibrium_summary *summary)
+static void look_elsewhere(const problem *the, const double *start, const double *y,
+                           ld_equilibrium_summary *summary)
 {
     static const double sides[][2] = {{-1, -1}, {-1, 1}, {1, -1}};
     const double least = 1e-5; // [m, rad]
@@ -840,22 +835,20 @@ static void search_elsewhere(const problem *the, const double *start, double acc
         return;
     for (int k = 0; k < 3 && !summary->rests_elsewhere; k++) {
         mirror(self, off, sides[k][0], sides[k][1], from);
-        summary->rests_elsewhere =
-            rests_elsewhere(the, start, accepted, y, from, off, summary->other);
+        summary->rests_elsewhere = rests_elsewhere(the, start, y, from, off, summary->other);
     }
     memcpy(summary->taken, off, sizeof off);
 }
 
 // Says so where gravity, or the air with it, pulls the rocket along a direction in which nothing
 // carries it.
-static ld_status check_carried(const problem *the, const double *y, double accepted,
-                               ld_error *error)
+static ld_status check_carried(const problem *the, const double *y, ld_error *error)
 {
     static const char *const names[] = {"along y of the guide", "along z of the guide",
                                         "about z of the guide", "about y of the guide",
                                         "about the guide line"};
     int worst;
-    if (held_by_spring(the, y, &worst) <= accepted)
+    if (held_by_spring(the, y, &worst) <= the->accepted)
         return LD_OK;
     return ld_fail(error, LD_ERR_LAUNCH,
                    "run.start: no static equilibrium: %s the rocket %s, and no surface carries it "
@@ -863,39 +856,39 @@ static ld_status check_carried(const problem *the, const double *y, double accep
                    the->self->air ? "gravity and the air pull" : "gravity pulls", names[worst]);
 }
 
-// The rocket in its bore is released from the axis. `best`: what the state in y has reached.
-static double try_letting_go(const problem *the, const double *start, double accepted, double best,
-                             double *y)
+// The rocket in its bore is let go from the axis. `best`: what the state in y has reached.
+static double try_letting_go(const problem *the, const double *start, double best, double *y)
 {
     problem tube = *the;
     double found[LD_MAX_STATES];
     tube.count = launching_freedoms(the->self);
     guess_straight(the, start, found);
-    double reached = release_and_settle(&tube, accepted, found);
-    if (the->count > tube.count && reached <= accepted)
-        reached = release_and_settle(the, accepted, found);
-    if (!(reached <= accepted) || is_away(the, found))
+    double reached = release_and_settle(&tube, found);
+    if (the->count > tube.count && reached <= the->accepted)
+        reached = release_and_settle(the, found);
+    if (!(reached <= the->accepted) || is_away(the, found))
         return best;
     problem fine = *the;
     memcpy(y, found, sizeof found);
-    return newton_fine(&fine, found, 1e-3 * accepted, y);
+    fine.accepted = 1e-3 * the->accepted;
+    return newton_fine(&fine, found, y);
 }
 
 // Equilibrium of tube and rocket, and of the base with them where that is among the unknowns, which
 // stands in `start` in its place. Returns the residual; the state is in y.
-static double find_rest(const problem *the, const double *start, double accepted, double *y)
+static double find_rest(const problem *the, const double *start, double *y)
 {
     double best = INFINITY;
     if (is_upright(the, start))
-        best = try_upright(the, start, accepted, y);
+        best = try_upright(the, start, y);
     // an adaptor that hardly carries is found from where it is pressed in [m]
-    for (double extra = 0; extra < 1e-3 && best > accepted; extra = 10 * extra + 1e-6)
-        best = fmin(best, try_pairs(the, start, extra, accepted, y));
+    for (double extra = 0; extra < 1e-3 && best > the->accepted; extra = 10 * extra + 1e-6)
+        best = fmin(best, try_pairs(the, start, extra, y));
     // a hard contact is pressed in by less than the differences
     problem fine = *the;
-    for (fine.h = 0.1 * the->h; fine.h > 1e-13 && best > accepted; fine.h *= 0.1)
-        best = fmin(best, try_pairs(&fine, start, 0, accepted, y));
-    return best > accepted ? try_letting_go(the, start, accepted, best, y) : best;
+    for (fine.h = 0.1 * the->h; fine.h > 1e-13 && best > the->accepted; fine.h *= 0.1)
+        best = fmin(best, try_pairs(&fine, start, 0, y));
+    return best > the->accepted ? try_letting_go(the, start, best, y) : best;
 }
 
 // Without a lock the breech carries a rocket that gravity presses on it by more than nothing: s is
@@ -908,13 +901,13 @@ static void stand_on_breech(launch_state *self, problem *the, launching_phase *p
 }
 
 // From where the lock holds the rocket in y onto the breech, which it presses in by `depth`.
-static double continue_on_breech(launch_state *self, problem *the, launching_phase *phase,
-                                 double depth, double accepted, double *y)
+static double go_on_breech(launch_state *self, problem *the, launching_phase *phase, double depth,
+                           double *y)
 {
     double best = INFINITY;
     stand_on_breech(self, the, phase);
     y[self->launcher.launching.layout.x + X_S] -= depth;
-    for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * accepted); the->h *= 0.1)
+    for (the->h = DIFFERENCE; the->h > 1e-11 && !(best <= 1e-3 * the->accepted); the->h *= 0.1)
         best = newton(the, y);
     return best;
 }
@@ -922,26 +915,22 @@ static double continue_on_breech(launch_state *self, problem *the, launching_pha
 // On surfaces and the breech at once or, where that finds nothing, from where a lock would hold the
 // rocket: a first step may take it off the breech, on which no further one brings it back.
 static double find_on_surfaces_and_breech(launch_state *self, problem *the, launching_phase *phase,
-                                          const double *start, double depth,
-                                          carried_directions *carried, double accepted, double *y)
+                                          const double *start, double depth, double *y)
 {
     problem held = *the;
-    carried_directions other;
     double found[LD_MAX_STATES];
     stand_on_breech(self, the, phase);
-    double reached = find_on_surfaces(the, start, depth, carried, accepted, y);
-    if (is_at_rest(the, y, reached, accepted))
+    double reached = find_on_surfaces(the, start, depth, y);
+    if (is_at_rest(the, y, reached))
         return reached;
     self->on_breech = false;
     phase->locked = true;
-    double next = find_on_surfaces(&held, start, 0, &other, accepted, found);
-    bool rests = is_at_rest(&held, found, next, accepted);
-    next = continue_on_breech(self, &held, phase, depth, accepted, found);
-    if (!rests || !is_at_rest(&held, found, next, accepted))
+    double next = find_on_surfaces(&held, start, 0, found);
+    bool rests = is_at_rest(&held, found, next);
+    next = go_on_breech(self, &held, phase, depth, found);
+    if (!rests || !is_at_rest(&held, found, next))
         return reached;
-    *carried = other;
     *the = held;
-    the->carried = carried;
     memcpy(y, found, sizeof found);
     return next;
 }
@@ -949,8 +938,7 @@ static double find_on_surfaces_and_breech(launch_state *self, problem *the, laun
 // Finds the equilibrium as find_rest() does, with the lock closed, or on surfaces. Where there is
 // none, and gravity presses the rocket on the breech, it goes there then, on surfaces at once.
 static double find_start(launch_state *self, problem *the, launching_phase *phase,
-                         const double *start, carried_directions *carried, double accepted,
-                         double *y)
+                         const double *start, double *y)
 {
     double pressed = -self->motor->full.m * pull_at(self, the->t, start).x;
     bool stands = !self->rocket->lock.present &&
@@ -959,18 +947,23 @@ static double find_start(launch_state *self, problem *the, launching_phase *phas
     bool surfaces = self->launcher.launching.surfaces.count > 0;
     self->on_breech = false;
     if (surfaces && stands)
-        return find_on_surfaces_and_breech(self, the, phase, start, depth, carried, accepted, y);
+        return find_on_surfaces_and_breech(self, the, phase, start, depth, y);
     if (surfaces)
-        return find_on_surfaces(the, start, 0, carried, accepted, y);
-    double best = find_rest(the, start, accepted, y);
-    return stands && best <= accepted ? continue_on_breech(self, the, phase, depth, accepted, y)
-                                      : best;
+        return find_on_surfaces(the, start, 0, y);
+    double best = find_rest(the, start, y);
+    return stands && best <= the->accepted ? go_on_breech(self, the, phase, depth, y) : best;
+}
+
+// Residual [m/s2] of a state at rest.
+static double accepted_residual(const launch_state *self)
+{
+    return 1e-6 * (1 + model_gravity(self->model));
 }
 
 // A base with a motion of its own in equilibrium under a tube that is a dead load; one that is
 // stepped where it `stands`; others need nothing.
 static ld_status settle_base(const launch_state *self, double t, const launching_phase *phase,
-                             const double *stands, double accepted, double *y, ld_error *error)
+                             const double *stands, double *y, ld_error *error)
 {
     memset(y, 0, (size_t)self->launcher.state_count * sizeof(double));
     const base_system *base = &self->launcher.base;
@@ -996,7 +989,7 @@ static ld_status settle_base(const launch_state *self, double t, const launching
         return status;
     double reached = newton(&dead, y);
     free(dead.jacobian);
-    if (reached <= accepted)
+    if (reached <= accepted_residual(self))
         return LD_OK;
     return dynamics->report_no_rest(reached, error);
 }
@@ -1033,14 +1026,9 @@ static const char *smallest_residual(double best, char text[64])
     return text;
 }
 
-static double accepted_residual(const launch_state *self)
-{
-    return 1e-6 * (1 + model_gravity(self->model));
-}
-
-// The same for tube and rocket where the base stands in `start`. Kilometres from the origin it is
-// the rounding of places, which strains the supports: what a move of the straight tube by some of
-// it leaves.
+// Residual of a state at rest for tube and rocket where the base stands in `start`. Kilometres from
+// the origin it is the rounding of places, which strains the supports: what a move of the straight
+// tube by some of it leaves.
 static double accepted_at(const problem *the, const double *start)
 {
     enum { ROUNDINGS = 4 };
@@ -1116,7 +1104,7 @@ static ld_status undeformed_on(launch_state *self, double t, const double *stand
 {
     (void)summary;
     launching_phase phase = resting_phase(self);
-    ld_status status = settle_base(self, t, &phase, stands, accepted_residual(self), y, error);
+    ld_status status = settle_base(self, t, &phase, stands, y, error);
     if (!status)
         status = keep_rest(self, t, y, error);
     if (status)
@@ -1144,7 +1132,7 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
                        why);
     double start[LD_MAX_STATES];
     self->on_breech = false;
-    ld_status status = settle_base(self, t, &phase, stands, accepted_residual(self), start, error);
+    ld_status status = settle_base(self, t, &phase, stands, start, error);
     if (status)
         return status;
     base_frame going = setting_off(self, t, start);
@@ -1157,22 +1145,21 @@ static ld_status equilibrium_on(launch_state *self, double t, const double *stan
     status = make_room(&whole, error);
     if (status)
         return status;
-    carried_directions carried;
-    double accepted = accepted_at(&whole, start);
-    double best = find_start(self, &whole, &phase, start, &carried, accepted, y);
+    whole.accepted = accepted_at(&whole, start);
+    double best = find_start(self, &whole, &phase, start, y);
     char left[64];
-    if (!(best <= accepted))
+    if (!(best <= whole.accepted))
         status = ld_fail(error, LD_ERR_NUMERIC,
                          "run.start: no static equilibrium was found%s: check that gravity holds "
                          "the rocket on two adaptors; \"run.start: undeformed\" starts without it",
                          smallest_residual(best, left));
     if (!status)
-        status = check_carried(&whole, y, accepted, error);
+        status = check_carried(&whole, y, error);
     if (!status)
         status = keep_rest(self, t, y, error);
     if (!status) {
         report(&whole, y, summary);
-        search_elsewhere(&whole, start, accepted, y, summary);
+        look_elsewhere(&whole, start, y, summary);
     }
     free(whole.jacobian);
     return status;
@@ -1313,16 +1300,15 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     if (status)
         return status;
     double found[LD_MAX_STATES];
-    carried_directions carried;
-    double accepted = accepted_at(&tube, still);
-    double best = find_start(self, &tube, &phase, still, &carried, accepted, found);
+    tube.accepted = accepted_at(&tube, still);
+    double best = find_start(self, &tube, &phase, still, found);
     free(tube.jacobian);
     char left[64];
-    if (!(best <= accepted))
+    if (!(best <= tube.accepted))
         return ld_fail(error, LD_ERR_NUMERIC,
                        "tube %d has no static equilibrium at its turn, t = %.6g s%s",
                        model_firing(self->model, next)->tube, t, smallest_residual(best, left));
-    status = check_carried(&tube, found, accepted, error);
+    status = check_carried(&tube, found, error);
     if (status)
         return status;
     memcpy(y, found, launching);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "integration/dormand_prince.h"
+#include "model/blocks/firing.h"
 #include "model/blocks/platform.h"
 #include "model/parts.h"
 
@@ -116,10 +117,11 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
     return kept ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a rocket's jet");
 }
 
-ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase, int tube,
+ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase,
                    const jet_place *mouth, const double *state, ld_error *error)
 {
     const ld_table *table = &model_platform(self->model)->jet;
+    int tube = model_firing(self->model, self->count)->tube;
     jet *one = &self->of[self->count++];
     *one = (jet){.flight = flight,
                  .t_ignition = phase->t_ignition,

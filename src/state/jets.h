@@ -39,7 +39,7 @@ v3 jets_mouth(const ld_model *model, int tube, int launching);
 // Adds the rocket that leaves next, its tube's mouth there, in the flight's state: finds its course
 // until its motor is burnt out or it is out of reach.
 // @return LD_OK, LD_ERR_NUMERIC, LD_ERR_MEMORY
-ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase, int tube,
+ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase,
                    const jet_place *mouth, const double *state, ld_error *error);
 
 // Their wrench at t, T being `tube` and that of the tube `launching`.

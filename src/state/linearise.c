@@ -250,48 +250,50 @@ ld_status linear_rest(launch_state *self, linear_system *system, ld_error *error
     return status;
 }
 
-// Rates where unknown j is h more, and less.
+// Rates where an unknown is h more, and less.
+typedef struct difference {
+    double h, plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES];
+} difference;
+
+// Those of unknown j by a step h.
 static int rates_beside(const launch_state *self, const launching_system *alone,
-                        const linear_system *system, int j, double h, double *plus, double *minus)
+                        const linear_system *system, int j, double h, difference *of)
 {
     double trial[LD_MAX_STATES];
+    of->h = h;
     size_t size = (size_t)self->launcher.state_count * sizeof(double);
     memcpy(trial, system->y, size);
     linear_displace(self, system, j, h, trial);
-    int bad = rates(self, system, alone, trial, plus);
+    int bad = rates(self, system, alone, trial, of->plus);
     memcpy(trial, system->y, size);
     linear_displace(self, system, j, -h, trial);
-    return bad ? bad : rates(self, system, alone, trial, minus);
+    return bad ? bad : rates(self, system, alone, trial, of->minus);
 }
 
 // Whether differences to both sides are not those of a straight line.
-static bool is_bent(int n, const double *plus, const double *middle, const double *minus)
+static bool is_bent(int n, const double *middle, const difference *of)
 {
     double bend = 0, rise = 0;
     for (int i = 0; i < n; i++) {
-        bend = hypot(bend, plus[i] - 2 * middle[i] + minus[i]);
-        rise = hypot(rise, plus[i] - minus[i]);
+        bend = hypot(bend, of->plus[i] - 2 * middle[i] + of->minus[i]);
+        rise = hypot(rise, of->plus[i] - of->minus[i]);
     }
     return bend > 0.03 * rise;
 }
 
-// The same, by a step [out: *h] so small that nothing which is pressed in by little releases within
-// it, where there is one: else its stiffness would be that of neither state, and not the same back
-// and forth.
+// The same, by a step so small that nothing which is pressed in by little lets go within it, where
+// there is one: else its stiffness would be that of neither state, and not the same back and forth.
 static int straight_rates(const launch_state *self, const launching_system *alone,
-                          const linear_system *system, int j, const double *middle, double *h,
-                          double *plus, double *minus)
+                          const linear_system *system, int j, const double *middle, difference *of)
 {
-    const double coarse = *h, fine = 0.01 * coarse;
-    int bad = rates_beside(self, alone, system, j, coarse, plus, minus);
-    if (bad || !is_bent(system->count, plus, middle, minus))
+    const double coarse = j < system->half ? 1e-7 : 1e-5, fine = 0.01 * coarse;
+    int bad = rates_beside(self, alone, system, j, coarse, of);
+    if (bad || !is_bent(system->count, middle, of))
         return bad;
-    *h = fine;
-    bad = rates_beside(self, alone, system, j, fine, plus, minus);
-    if (bad || !is_bent(system->count, plus, middle, minus))
+    bad = rates_beside(self, alone, system, j, fine, of);
+    if (bad || !is_bent(system->count, middle, of))
         return bad;
-    *h = coarse;
-    return rates_beside(self, alone, system, j, coarse, plus, minus);
+    return rates_beside(self, alone, system, j, coarse, of);
 }
 
 // Finds the Jacobian by central differences about what stands in `system`, of the whole or of the
@@ -300,7 +302,8 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
                            linear_system *system, ld_error *error)
 {
     int n = system->count;
-    double plus[2 * LD_MAX_STATES], minus[2 * LD_MAX_STATES], middle[2 * LD_MAX_STATES];
+    difference of;
+    double middle[2 * LD_MAX_STATES], *plus = of.plus, *minus = of.minus;
     system->J = calloc((size_t)n * (size_t)(n + system->base + 1), sizeof(double));
     if (!system->J)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the linearised equations");
@@ -308,10 +311,9 @@ static ld_status linearise(const launch_state *self, const launching_system *alo
     system->step = system->held + system->base * n;
     int bad = rates(self, system, alone, system->y, middle);
     for (int j = 0; j < n; j++) {
-        double h = j < system->half ? 1e-7 : 1e-5;
-        if (bad || straight_rates(self, alone, system, j, middle, &h, plus, minus))
+        if (bad || straight_rates(self, alone, system, j, middle, &of))
             return ld_fail(error, LD_ERR_NUMERIC, "the equations cannot be linearised");
-        system->step[j] = h;
+        double h = system->step[j] = of.h;
         for (int i = 0; i < n; i++)
             system->J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
         for (int i = 0; i < system->base; i++)
@@ -443,12 +445,35 @@ static bool is_vertical(const launch_state *self, const linear_system *system, i
     return k == 1 || k == 5 || (i >= 6 && i < 6 + self->launcher.launching.tube.flexible.nb);
 }
 
-// left^T right by rows; by columns left^T C right, C = -J's block of speeds on speeds, and left^T
-// right of the vertical speeds alone.
-static void project(const launch_state *self, const linear_system *system, const undamped *shape,
-                    int count, double *products, double *damped, double *vertical)
+// Shapes of one frequency, any combination of which is a shape too, and matrices of count x count.
+typedef struct equal_shapes {
+    const undamped *shape;
+    int count;
+    double *products; // left^T right, by rows
+    double *damped;   // left^T C right, C = -J's block of speeds on speeds, by columns
+    double *vertical; // left^T right of the vertical speeds alone, by columns
+    double *mix;      // what combines to modes, by columns
+} equal_shapes;
+
+enum { EQUAL_MATRICES = 4 };
+
+// `work`: room for as many matrices.
+static equal_shapes equal_of(const undamped *shape, int count, double *work)
 {
-    int n = system->half;
+    int square = count * count;
+    return (equal_shapes){.shape = shape,
+                          .count = count,
+                          .products = work,
+                          .damped = work + square,
+                          .vertical = work + 2 * square,
+                          .mix = work + 3 * square};
+}
+
+// Fills all but `mix`.
+static void project(const launch_state *self, const linear_system *system, const equal_shapes *of)
+{
+    int n = system->half, count = of->count;
+    const undamped *shape = of->shape;
     for (int a = 0; a < count; a++)
         for (int b = 0; b < count; b++) {
             const double *left = shape[a].left, *right = shape[b].right;
@@ -460,23 +485,22 @@ static void project(const launch_state *self, const linear_system *system, const
                 for (int i = 0; i < n; i++)
                     damping -= left[i] * system->J[n + i + system->count * (n + j)] * right[j];
             }
-            products[a * count + b] = all;
-            damped[a + count * b] = damping;
-            vertical[a + count * b] = some;
+            of->products[a * count + b] = all;
+            of->damped[a + count * b] = damping;
+            of->vertical[a + count * b] = some;
         }
 }
 
-// What the dampers do to `count` shapes of one frequency, any combination of which is a shape too:
-// (left^T right)^-1 left^T C right, with the eigenvalues `rate`, 2 zeta omega [1/s], and
-// eigenvectors by columns in `mix`. Of shapes that are damped alike a trace more in the vertical
-// plane takes those in the planes. `work`: room for three such matrices.
-static int damp_shapes(const launch_state *self, const linear_system *system, const undamped *shape,
-                       int count, double *rate, double *mix, double *work)
+// What the dampers do to the shapes: (left^T right)^-1 left^T C right, with the eigenvalues `rate`,
+// 2 zeta omega [1/s], and eigenvectors in `mix`. Of shapes that are damped alike a trace more in
+// the vertical plane takes those in the planes.
+static int damp_shapes(const launch_state *self, const linear_system *system,
+                       const equal_shapes *of, double *rate)
 {
-    int square = count * count, pivot[LD_MAX_STATES];
-    double *products = work, *damped = products + square, *vertical = damped + square, sum = 0;
+    int count = of->count, square = count * count, pivot[LD_MAX_STATES];
+    double *products = of->products, *damped = of->damped, *vertical = of->vertical, sum = 0;
     double unused[LD_MAX_STATES];
-    project(self, system, shape, count, products, damped, vertical);
+    project(self, system, of);
     if (lu_factor(count, products, pivot))
         return -1;
     for (int b = 0; b < count; b++) {
@@ -486,15 +510,17 @@ static int damp_shapes(const launch_state *self, const linear_system *system, co
     }
     for (int i = 0; i < square && count > 1; i++)
         damped[i] += 1e-9 * sum * vertical[i];
-    return general_eigen(count, damped, rate, unused, NULL, mix);
+    return general_eigen(count, damped, rate, unused, NULL, of->mix);
 }
 
-// The modes that `count` shapes of one frequency have, by ascending damping.
+// The modes that shapes of one frequency have, by ascending damping.
 static int modes_of_shapes(const launch_state *self, const linear_system *system,
-                           const undamped *shape, int count, ld_mode *modes, double *work)
+                           const equal_shapes *of, ld_mode *modes)
 {
-    double rate[LD_MAX_STATES], squares[LD_MAX_STATES], *mix = work + 3 * count * count, mean = 0;
-    int bad = damp_shapes(self, system, shape, count, rate, mix, work);
+    int count = of->count;
+    const undamped *shape = of->shape;
+    double rate[LD_MAX_STATES], squares[LD_MAX_STATES], *mix = of->mix, mean = 0;
+    int bad = damp_shapes(self, system, of, rate);
     if (bad)
         return bad;
     for (int i = 0; i < count; i++)
@@ -545,7 +571,7 @@ static ld_status undamped_modes(const launch_state *self, const linear_system *s
     size_t square = (size_t)n * (size_t)n;
     undamped *shape = malloc((size_t)n * sizeof *shape);
     ld_mode *some = malloc((size_t)n * sizeof *some);
-    double *work = malloc(6 * square * sizeof *work);
+    double *work = malloc((2 + EQUAL_MATRICES) * square * sizeof *work);
     *count = 0;
     if (!shape || !some || !work) {
         free(shape);
@@ -558,7 +584,8 @@ static ld_status undamped_modes(const launch_state *self, const linear_system *s
         equal = 1;
         while (i + equal < shapes && shape[i + equal].square <= (1 + EQUAL) * shape[i].square)
             equal++;
-        bad = modes_of_shapes(self, system, shape + i, equal, some, work + 2 * square);
+        const equal_shapes of = equal_of(shape + i, equal, work + 2 * square);
+        bad = modes_of_shapes(self, system, &of, some);
         for (int k = 0; k < equal && !bad && *count < capacity; k++)
             modes[(*count)++] = some[k];
     }
@@ -606,12 +633,18 @@ static const char *feeder_of(const launch_state *self, const linear_system *syst
     return feeder;
 }
 
+// Eigenvalues as they are found: the first `capacity`, and, unless NULL, of those whose motion its
+// holder feeds the one that grows fastest.
+typedef struct pole_list {
+    ld_pole *pole;
+    int capacity, count;
+    fed_pole *fed;
+} pole_list;
+
 // Eigenvalues of J with imaginary part >= 0, by ascending modulus, each with what moves in it;
 // those below `least` [1/s], which constraints and neutral directions leave at zero, are dropped.
-// `fed`: of those whose motion its holder feeds the one that grows fastest (NULL: not requested).
 static ld_status eigenvalues(const launch_state *self, const linear_system *system, double least,
-                             ld_pole *poles, int capacity, int *count, fed_pole *fed,
-                             ld_error *error)
+                             pole_list *to, ld_error *error)
 {
     int n = system->count, half = system->half;
     size_t square = (size_t)n * (size_t)n;
@@ -621,25 +654,25 @@ static ld_status eigenvalues(const launch_state *self, const linear_system *syst
     double *J = memory, *right = J + square, *wr = right + square, *wi = wr + n, *squares = wi + n;
     memcpy(J, system->J, square * sizeof *J);
     int bad = general_eigen(n, J, wr, wi, NULL, right);
-    *count = 0;
-    for (int i = 0; i < n && !bad && *count < capacity; i++) {
+    to->count = 0;
+    for (int i = 0; i < n && !bad && to->count < to->capacity; i++) {
         if (wi[i] < 0 || hypot(wr[i], wi[i]) < least)
             continue;
-        ld_pole *pole = &poles[(*count)++];
+        ld_pole *pole = &to->pole[to->count++];
         *pole = (ld_pole){.real = wr[i], .imaginary = wi[i]};
         const double *real = right + n * i, *imaginary = wi[i] > 0 ? real + n : NULL;
         for (int k = 0; k < half; k++)
             squares[k] = real[half + k] * real[half + k] +
                          (imaginary ? imaginary[half + k] * imaginary[half + k] : 0);
         double energy = name_shape(self, system, squares, pole->shape);
-        const char *feeder = fed && wr[i] >= fmax(least, fed->pole.real)
+        const char *feeder = to->fed && wr[i] >= fmax(least, to->fed->pole.real)
                                  ? feeder_of(self, system, wr[i], real, imaginary, energy)
                                  : NULL;
         if (feeder)
-            *fed = (fed_pole){*pole, feeder};
+            *to->fed = (fed_pole){*pole, feeder};
     }
     free(memory);
-    qsort(poles, (size_t)*count, sizeof *poles, by_size);
+    qsort(to->pole, (size_t)to->count, sizeof *to->pole, by_size);
     return bad ? eigenvalues_failed(bad, error) : LD_OK;
 }
 
@@ -777,9 +810,10 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     if (status)
         return status;
     status = simulation_linearise(self, false, false, &system, error);
+    pole_list all = {.pole = poles, .capacity = pole_capacity};
     if (!status)
-        status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, poles, pole_capacity,
-                             pole_count, NULL, error);
+        status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, &all, error);
+    *pole_count = all.count;
     if (!status && moving)
         modes_of_poles(poles, *pole_count, modes, capacity, count);
     else if (!status)
@@ -794,32 +828,31 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
 {
     enum { MOST = 2 * LD_MAX_STATES };
     linear_system system = {0};
-    int count = 0;
-    ld_pole *poles = malloc(MOST * sizeof *poles);
+    fed_pole fed = {0};
+    pole_list found = {.pole = malloc(MOST * sizeof *found.pole), .capacity = MOST, .fed = &fed};
     *growing = (ld_pole){0};
-    if (!poles)
+    if (!found.pole)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
     launch_state state;
-    fed_pole fed = {0};
     ld_status status = launch_state_begin(&state, simulation, error);
     // without an equilibrium on a flat road there is nothing to say
     ld_error unused;
     if (!status && !simulation_linearise(&state, false, false, &system, &unused) &&
         may_grow(&system, LEAST_RATE))
-        eigenvalues(&state, &system, LEAST_RATE, poles, MOST, &count, &fed, &unused);
+        eigenvalues(&state, &system, LEAST_RATE, &found, &unused);
     launch_state_end(&state);
     // what grows by less than a thousandth of its rate is within the differences' error
-    for (int i = 0; i < count; i++)
-        if (poles[i].real >= LEAST_RATE &&
-            poles[i].real > fmax(growing->real, 1e-3 * poles[i].imaginary))
-            *growing = poles[i];
+    for (int i = 0; i < found.count; i++)
+        if (found.pole[i].real >= LEAST_RATE &&
+            found.pole[i].real > fmax(growing->real, 1e-3 * found.pole[i].imaginary))
+            *growing = found.pole[i];
     if (fed.feeder)
         status =
             ld_fail(error, LD_ERR_INPUT,
                     "%s: unstable: about its equilibrium a motion of %.3g Hz grows by %.3g 1/s "
                     "(launchdyn modes lists all)",
                     fed.feeder, fed.pole.imaginary / TWO_PI, fed.pole.real);
-    free(poles);
+    free(found.pole);
     free(system.J);
     return status;
 }

@@ -52,10 +52,17 @@ static void take_end(air_surfaces *air, double last, const char *name, const cha
              name ? "surfaces." : "", name ? name : "", name && key ? "." : "", key ? key : "");
 }
 
-// A table of two columns, or the column given of one of three.
-static ld_status add_table(part_list *list, int column, double factor, const ld_table *table,
-                           size_t from, const char *name, const char *key)
+// A table of the scenario: of two columns, or the column `from` of one of three. Where it ends
+// counts for the surface `name` (NULL: the axial coefficients), as its key.
+typedef struct given_table {
+    const ld_table *table;
+    size_t from;
+    const char *name, *key;
+} given_table;
+
+static ld_status add_table(part_list *list, int column, double factor, given_table given)
 {
+    const ld_table *table = given.table;
     static const curve_kind kind[] = {
         [LD_PCHIP] = CURVE_PCHIP, [LD_SPLINE] = CURVE_SPLINE, [LD_LINEAR] = CURVE_LINEAR};
     if (table->rows == 0)
@@ -65,12 +72,12 @@ static ld_status add_table(part_list *list, int column, double factor, const ld_
         return ld_fail(list->error, LD_ERR_MEMORY, "no memory for the aerodynamic tables");
     for (size_t i = 0; i < table->rows; i++) {
         pairs[2 * i] = table->data[i * table->columns];
-        pairs[2 * i + 1] = table->data[i * table->columns + from];
+        pairs[2 * i + 1] = table->data[i * table->columns + given.from];
     }
     ld_status status = curves_build(&add(list, column, factor)->given, table->rows, 2, pairs,
                                     kind[list->model->interpolation], list->error);
     if (table->rows > 1)
-        take_end(list->air, table->data[(table->rows - 1) * table->columns], name, key);
+        take_end(list->air, table->data[(table->rows - 1) * table->columns], given.name, given.key);
     free(pairs);
     return status;
 }
@@ -116,14 +123,14 @@ static ld_status add_coefficients(part_list *list, const ld_air_surface *surface
 {
     double area = isnan(surface->area) ? 1 : surface->area / list->area;
     double scale = area * list->model->cn_scale * surface->slope_scale;
-    ld_status status = add_table(list, slope_column(list, surface->at), scale, &surface->slope, 1,
-                                 surface->name, "slope");
+    const given_table slope = {&surface->slope, 1, surface->name, "slope"};
+    const given_table forcing = {&surface->roll_forcing, 1, surface->name, "roll_forcing"};
+    const given_table damping = {&surface->roll_damping, 1, surface->name, "roll_damping"};
+    ld_status status = add_table(list, slope_column(list, surface->at), scale, slope);
     if (!status)
-        status = add_table(list, COLUMN_FORCING, area * surface->cant, &surface->roll_forcing, 1,
-                           surface->name, "roll_forcing");
+        status = add_table(list, COLUMN_FORCING, area * surface->cant, forcing);
     if (!status)
-        status = add_table(list, COLUMN_DAMPING, area, &surface->roll_damping, 1, surface->name,
-                           "roll_damping");
+        status = add_table(list, COLUMN_DAMPING, area, damping);
     return status;
 }
 
@@ -158,9 +165,10 @@ static ld_status add_all(part_list *list)
     const ld_aerodynamics *model = list->model;
     const ld_table *axial = &model->axial;
     ld_status status = LD_OK;
-    for (size_t k = 0; k < 2 && !status; k++)
-        status = add_table(list, (int)k, model->ca_scale, axial, axial->columns == 3 ? k + 1 : 1,
-                           NULL, "axial");
+    for (size_t k = 0; k < 2 && !status; k++) {
+        const given_table one = {axial, axial->columns == 3 ? k + 1 : 1, NULL, "axial"};
+        status = add_table(list, (int)k, model->ca_scale, one);
+    }
     for (int i = 0; i < model->surface_count && !status; i++)
         status = add_surface(list, &model->surface[i]);
     if (model->crossflow.present)

@@ -24,19 +24,21 @@ typedef struct tube_lines {
     line_shapes shapes[LINES];
 } tube_lines;
 
-// Line and shapes of one kind; shapes->count = 0 leaves both empty.
-static ld_status build_line(tube_line *line, line_shapes *shapes, line_kind kind, int plane,
-                            const tube_mesh *mesh, const ld_tubes *model, ld_error *error)
+// Line i and its shapes; a count of 0 of these leaves both empty.
+static ld_status build_line(tube_lines *of, int i, line_kind kind, int plane, const ld_tubes *model,
+                            ld_error *error)
 {
     static const char *const names[] = {"bending", "torsion", "axial"};
+    tube_line *line = &of->line[i];
+    line_shapes *shapes = &of->shapes[i];
     if (shapes->count == 0)
         return LD_OK;
-    ld_status status = tube_line_build(line, kind, plane, mesh, model, error);
+    ld_status status = tube_line_build(line, kind, plane, &of->mesh, model, error);
     if (status)
         return status;
     if (shapes->count > line->n)
         return ld_fail(error, LD_ERR_INPUT, "%d %s modes need a mesh of more than %d elements",
-                       shapes->count, names[kind], mesh->elements);
+                       shapes->count, names[kind], of->mesh.elements);
     return line_shapes_choose(shapes, line, model, error);
 }
 
@@ -51,8 +53,7 @@ static ld_status build_lines(tube_lines *of, const ld_tubes *model, ld_error *er
     ld_status status = tube_mesh_build(&of->mesh, model, error);
     for (int i = 0; i < LINES && !status; i++) {
         of->shapes[i].count = count[i];
-        status =
-            build_line(&of->line[i], &of->shapes[i], kind[i], plane[i], &of->mesh, model, error);
+        status = build_line(of, i, kind[i], plane[i], model, error);
     }
     return status;
 }
