@@ -88,6 +88,7 @@ fmi2Status fmi2SetDebugLogging(void *c, int on, size_t count, const char *const 
     return fmi2OK;
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 void *fmi2Instantiate(const char *name, fmi2Type type, const char *guid, const char *resources,
                       const fmi2CallbackFunctions *call, int visible, int logging)
 {
@@ -308,6 +309,7 @@ fmi2Status fmi2GetRealOutputDerivatives(void *c, const unsigned *reference, size
     return refuse(c, "fmi2GetRealOutputDerivatives");
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t unknowns,
                                         const unsigned *known, size_t knowns, const double *seed,
                                         double *sensitivity)

@@ -268,6 +268,7 @@ int command_on_file(const char *file, char **sets, int (*work)(const ld_model *m
     return code;
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 int command_on_model(const command *self, int argc, char **argv, const command_option *options,
                      char ***sets, int (*work)(const ld_model *model, void *data), void *data)
 {

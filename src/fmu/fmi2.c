@@ -122,6 +122,7 @@ static void free_component(component *self)
     free(self);
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 void *fmi2Instantiate(const char *name, fmi2Type type, const char *guid, const char *resources,
                       const fmi2CallbackFunctions *call, int visible, int logging)
 {
@@ -350,6 +351,7 @@ fmi2Status fmi2GetRealOutputDerivatives(void *c, const unsigned *reference, size
     return not_offered(c, "fmi2GetRealOutputDerivatives");
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t unknowns,
                                         const unsigned *known, size_t knowns, const double *seed,
                                         double *sensitivity)

@@ -88,6 +88,7 @@ static void *open_instance(const char *token, const char *resources, const compo
     return refuse_instance(log, environment, error.text);
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 void *fmi3InstantiateModelExchange(const char *name, const char *token, const char *resources,
                                    bool visible, bool logging, void *environment, fmi3Logger log)
 {
@@ -95,6 +96,7 @@ void *fmi3InstantiateModelExchange(const char *name, const char *token, const ch
     return open_instance(token, resources, &(component){.exchange = true}, environment, log);
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 void *fmi3InstantiateCoSimulation(const char *name, const char *token, const char *resources,
                                   bool visible, bool logging, bool event_mode, bool early_return,
                                   const uint32_t *intermediate, size_t intermediates,
@@ -107,6 +109,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
                          environment, log);
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 void *fmi3InstantiateScheduledExecution(const char *name, const char *token, const char *resources,
                                         bool visible, bool logging, void *environment,
                                         fmi3Logger log, void (*clock)(void *), void (*lock)(void),
@@ -326,6 +329,7 @@ fmi3Status fmi3GetNumberOfVariableDependencies(void *instance, uint32_t referenc
     return not_offered(instance, "fmi3GetNumberOfVariableDependencies");
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi3Status fmi3GetVariableDependencies(void *instance, uint32_t dependent, size_t *element,
                                        uint32_t *independent, size_t *of_independent, int *kind,
                                        size_t count)
@@ -337,6 +341,7 @@ fmi3Status fmi3GetVariableDependencies(void *instance, uint32_t dependent, size_
 
 // ---- steps and events ----
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi3Status fmi3DoStep(void *instance, double t, double size, bool no_return, bool *event,
                       bool *terminate, bool *early, double *reached)
 {
@@ -371,6 +376,7 @@ fmi3Status fmi3EnterStepMode(void *instance)
 }
 
 // In co-simulation what happened has happened within the step; inputs act on the next one.
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi3Status fmi3UpdateDiscreteStates(void *instance, bool *again, bool *terminate, bool *nominals,
                                     bool *values, bool *next_defined, double *next)
 {
@@ -399,6 +405,7 @@ fmi3Status fmi3GetOutputDerivatives(void *instance, const uint32_t *reference, s
     return not_offered(instance, "fmi3GetOutputDerivatives");
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
                                         const uint32_t *known, size_t knowns, const double *seed,
                                         size_t seeds, double *value, size_t values)
@@ -408,6 +415,7 @@ fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown,
     return not_offered(instance, "fmi3GetDirectionalDerivative");
 }
 
+// NOLINTNEXTLINE(readability-function-size): of the standard
 fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
                                     const uint32_t *known, size_t knowns, const double *seed,
                                     size_t seeds, double *value, size_t values)

@@ -136,7 +136,7 @@ void foreign_close(foreign_package *self)
 
 // Asks for an answer of a known size.
 static ld_status ask_process(foreign_instance *self, const foreign_question *question, void *answer,
-                     size_t expected, ld_error *error)
+                             size_t expected, ld_error *error)
 {
     foreign_reply reply = {answer, expected, 0};
     ld_status status = foreign_process_ask(self->process, question, &reply, error);
@@ -224,6 +224,7 @@ ld_status foreign_leave(foreign_instance *self, double t, ld_error *error)
     return ask_process(self, &(foreign_question){.kind = FOREIGN_LEAVE, .t = t}, NULL, 0, error);
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 ld_status foreign_step(foreign_instance *self, double t, const foreign_stepping *step,
                        const foreign_value *values, double *numbers, int *pieces, ld_error *error)
 {

@@ -138,6 +138,7 @@ static int error_weights(N_Vector y, N_Vector weights, void *user)
 static const double growth = 25; // most from one step to the next
 static const double gain_now = 0.8, gain_previous = 0.31, least_error = 1e-10;
 
+// NOLINTNEXTLINE(readability-function-size): of ARKODE
 static int control_step(N_Vector y, double t, double h, double h_1, double h_2, double error,
                         double error_1, double error_2, int order, int embedded_order,
                         double *h_next, void *user)

@@ -439,6 +439,7 @@ static ld_status scatter(exit_bench *self, double speed, int draws, double *mean
     return status;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_response_exit(ld_response *response, double speed, int draws, const char *const *names,
                            size_t count, double *mean, double *deviation, ld_error *error)
 {

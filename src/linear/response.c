@@ -441,7 +441,7 @@ typedef struct answers {
 
 // To each of `count` excitations.
 static ld_status respond(ld_response *self, const excitation *by, int count, double frequency,
-                        const answers *to, ld_error *error)
+                         const answers *to, ld_error *error)
 {
     int n = self->now.states;
     double *z = to->z;
@@ -495,6 +495,7 @@ static ld_status excitation_of(const ld_response *self, const char *name, double
     return LD_OK;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_response_gain(ld_response *self, double speed, const char *input,
                            const double *frequency, size_t count, ld_phasor *gain, ld_error *error)
 {
@@ -553,7 +554,7 @@ static ld_status square_on_road(ld_response *self, double frequency, double shar
     bool same = shared == 1;
     int count = self->chosen_count;
     ld_status status = respond(self, &self->road[same ? ROAD_OF_BOTH : ROAD_OF_LEFT], same ? 1 : 2,
-                              frequency, room, error);
+                               frequency, room, error);
     for (int i = 0; i < count && !status; i++) {
         ld_phasor left = y[i], right = same ? (ld_phasor){0, 0} : y[count + i];
         square[i] = left.real * left.real + left.imaginary * left.imaginary +
@@ -812,6 +813,7 @@ static ld_status add_stretch(driven *self, const double f[2], const double densi
     return status;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_response_random(ld_response *self, double speed, const char *input,
                              const double *frequency, const double *density, size_t points,
                              double *rms, double *strongest, ld_error *error)

@@ -414,6 +414,7 @@ ld_status scenario_read_point(const char *path, const char *const *sets, size_t 
     return read_and_release(source, point, model, messages);
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 ld_status scenario_read_text_point(const char *text, size_t length, const char *name,
                                    const char *folder, const char *const *sets, size_t count,
                                    int point, ld_model *model, ld_messages *messages)
@@ -433,6 +434,7 @@ ld_status scenario_read(const char *path, const char *const *sets, size_t count,
     return scenario_read_point(path, sets, count, 0, model, messages);
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 ld_status scenario_read_text(const char *text, size_t length, const char *name, const char *folder,
                              const char *const *sets, size_t count, ld_model *model,
                              ld_messages *messages)

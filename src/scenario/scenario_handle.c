@@ -26,6 +26,7 @@ ld_status ld_scenario_read(const char *path, const char *const *sets, size_t cou
                     model);
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_scenario_read_text(const char *text, size_t length, const char *name,
                                 const char *folder, const char *const *sets, size_t count,
                                 ld_model **model, ld_messages *messages)

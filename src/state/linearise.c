@@ -795,6 +795,7 @@ ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
     return status;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
                                      int *count, ld_pole *poles, int pole_capacity, int *pole_count,
                                      ld_error *error)

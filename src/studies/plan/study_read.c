@@ -132,6 +132,7 @@ ld_status ld_study_read(const char *path, const char *const *sets, size_t count,
     return make_study(status, &nominal, path, study, messages);
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_study_read_text(const char *text, size_t length, const char *name, const char *folder,
                              const char *const *sets, size_t count, ld_study **study,
                              ld_messages *messages)

@@ -267,6 +267,7 @@ static int collect(const linear *l, ranked *order, ld_mstmm_mode *modes, double 
     return count;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_mstmm_vibration(ld_mstmm *s, const double *q, const double *tau, ld_mstmm_mode *modes,
                              double *shapes, int *count, ld_error *error)
 {

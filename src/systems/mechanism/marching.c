@@ -127,6 +127,7 @@ static v3 tyre_force(const marching_system *self, const carrier *on, int j, cons
     return force;
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 void marching_evaluate(const marching_system *self, const base_frame *chassis, bool held,
                        const road_disturbance *disturbed, const double *state, double *state_dot,
                        marching_output *output)

@@ -99,6 +99,7 @@ static void load_locks(const mechanism_system *self, const mechanism_motion *mot
 
 // ---- everything
 
+// NOLINTNEXTLINE(readability-function-size)
 static void load_holds(const mechanism_system *self, const mechanism_input *input,
                        const mechanism_motion *motion, const double *state, double *state_dot,
                        force_sum *sum, double *tau)

@@ -86,6 +86,7 @@ static bool is_held(const mechanism_system *self, int u)
 }
 
 // The column of the largest element in rows from `row` on, among speeds of holds or others; -1.
+// NOLINTNEXTLINE(readability-function-size)
 static int largest(const mechanism_system *self, int rows, int n, int row, bool held,
                    const double *basis, const bool *taken, int *at)
 {

@@ -59,6 +59,7 @@ static double gear_torque(const ld_gear *gear, bool stuck, double twist, double 
     return push || stuck || gear->backlash == 0 ? torque : 0;
 }
 
+// NOLINTNEXTLINE(readability-function-size)
 void stabiliser_evaluate(const ld_stabiliser *given, bool linear, double z, const double *drive,
                          hinge_report *hinge, double *z_dot, double *drive_dot)
 {

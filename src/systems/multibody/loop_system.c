@@ -192,6 +192,7 @@ static double product(int n, const double *x, const double *y)
 
 // Modified Gram-Schmidt: V = R^T Q, the row with the largest rest in its scale next; R [row][p].
 // Returns how many rows are independent, at most `most`.
+// NOLINTNEXTLINE(readability-function-size)
 static int orthogonalise(int rows, int n, int most, double least, dense_rows *d, double *smallest,
                          int *last)
 {

@@ -95,6 +95,7 @@ static ld_status advance(run *r, integrator *stepper, double t_0, double t_1, ld
     return status;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings, double t_0,
                              double t_1, double *q, double *u, ld_mstmm_statistics *statistics,
                              ld_error *error)

@@ -2,6 +2,7 @@
 #include "systems/multibody/closing.h"
 #include "systems/multibody/loop_rows.h"
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
                                  const double *tau, const double *wrench, double *u_dot,
                                  ld_error *error)

@@ -294,6 +294,7 @@ void ld_mstmm_places(ld_mstmm *system, const double *q, const double *u, ld_mstm
     system->placed = true;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 void ld_mstmm_point_acceleration(ld_mstmm *system, const double *q, const double *u,
                                  const double *u_dot, int element, const double at[3],
                                  double linear[3], double angular[3])

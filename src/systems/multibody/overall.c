@@ -391,6 +391,7 @@ static ld_status transfer_all(overall *o, double *x, double *u_dot, ld_error *er
 }
 
 // Largest difference of u_dot from the reduced sweep over its largest acceleration.
+// NOLINTNEXTLINE(readability-function-size)
 static double loss_of(ld_mstmm *s, const double *q, const double *u, const double *tau,
                       const double *wrench, const double *u_dot, double *reduced)
 {
@@ -431,6 +432,7 @@ static ld_status check_size(const ld_mstmm *s, int unknowns, ld_error *error)
     return LD_OK;
 }
 
+// NOLINTNEXTLINE(readability-function-size): public
 ld_status ld_mstmm_accelerations_overall(ld_mstmm *s, ld_mstmm_form form, const double *q,
                                          const double *u, const double *tau, const double *wrench,
                                          double *u_dot, ld_mstmm_overall *report, ld_error *error)

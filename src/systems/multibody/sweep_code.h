@@ -224,6 +224,7 @@ LD_INLINE void add_bias(share *s, v4d bias_a, v4d bias_alpha, bool turns)
 // A hinge with one axis, a turn or a slide: the share goes to the parent's origin first and the
 // axis is eliminated there, so that the division waits for nothing; V then belongs to the parent's
 // acceleration. The ground needs no share.
+// NOLINTNEXTLINE(readability-function-size)
 LD_INLINE int pass_axis(const share *own, share *passing, axis_record *record,
                         const node_motion *motion, double tau, bool turns, bool onward)
 {
