@@ -81,7 +81,8 @@ static benchmark floating_rings(int rings, int links)
         for (int k = 0; k < links; k++) {
             const int i = 1 + r * links + k;
             snprintf(name[i], sizeof *name, "%d", i);
-            e[i] = planar_body(name[i], k ? name[i - 1] : name[0], k ? 1 : 0, 0, 1, 0.5, 0, 0.1);
+            e[i] = planar_body(name[i], k ? name[i - 1] : name[0], (planar_point){k ? 1 : 0, 0}, 1,
+                               (planar_point){0.5, 0}, 0.1);
             if (k == 0)
                 e[i].at[2] = r;
             e[i].inertia[1] = 0.11;
@@ -91,8 +92,8 @@ static benchmark floating_rings(int rings, int links)
         snprintf(name[count + r], sizeof *name, "pin %d", r);
         // where the ring of equal angles ends: one link before its start
         double end = 0.1 + angle * links;
-        l[r] = planar_pin(name[count + r], name[1 + r * links + links - 1], 1, 0, name[0],
-                          -cos(end), -sin(end));
+        l[r] = planar_pin(name[count + r], name[1 + r * links + links - 1], (planar_point){1, 0},
+                          name[0], (planar_point){-cos(end), -sin(end)});
         l[r].second.at[2] = r;
     }
     const ld_mstmm_description d = {

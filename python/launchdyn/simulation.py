@@ -377,7 +377,7 @@ class Run(Held):
             status = library.ld_run_ignite(self._pointer, t, ctypes.byref(error))
         self._check(status, error)
 
-    def describe_base(self, base: BaseFrame) -> None:
+    def set_base(self, base: BaseFrame) -> None:
         """Sets where the base is at the present time and how it moves (base.kind: external)."""
         error, frame = ld_error(), base._struct()
         with self._lock:
@@ -456,13 +456,13 @@ class VehicleRun(Held):
             return float(library.ld_vehicle_run_time(self._pointer))
 
     def frame(self) -> BaseFrame:
-        """Where the vehicle holds the undeformed tube, in SI, for Run.describe_base()."""
+        """Where the vehicle holds the undeformed tube, in SI, for Run.set_base()."""
         frame = ld_base_frame()
         self._call(library.ld_vehicle_run_frame, ctypes.byref(frame))
         return BaseFrame(tuple(frame.position), tuple(frame.quaternion), tuple(frame.velocity),
                          tuple(frame.rate))
 
-    def tell_wrench(self, wrench: Wrench) -> None:
+    def set_wrench(self, wrench: Wrench) -> None:
         """Sets force [N] and moment [N m] of the tube on the vehicle at the present time."""
         told = ld_base_wrench(tuple(wrench.force), tuple(wrench.moment))
         self._call(library.ld_vehicle_run_set_wrench, ctypes.byref(told))

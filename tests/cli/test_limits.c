@@ -30,11 +30,11 @@ static void expect_files(const char *folder, const char *names)
     assert_string_equal(shell.out, names);
 }
 
-// docs/command.md has the table: each code once, one meaning.
+// docs/command.md has the list: each code once, one meaning.
 static void test_codes(void **state)
 {
     (void)state;
-    run("sed -n '/^## Exit codes/,/^## /s/^| \\([0-9, ]*\\) |.*/\\1/p' " LD_SOURCE_DIR
+    run("sed -n '/^## Exit codes/,/^## /s/^- \\([0-9, ]*\\): .*/\\1/p' " LD_SOURCE_DIR
         "/docs/command.md | tr '\\n' ';'");
     assert_string_equal(shell.out, "0;1;2;3;129, 130, 143;");
     assert_int_equal(run("launchdyn check examples/fixed.yaml"), 0);

@@ -129,10 +129,10 @@ static const struct {
      "has an array of 0 or more than a million elements: a"},
     {VARIABLES("<Int8 name='a' valueReference='1'><Dimension start='1001'/><Dimension "
                "start='1000'/></Int8>"),
-     "1 to a million elements, not of a"},
+     "an array of 0 or more than a million elements: a"},
     {VARIABLES(
          "<Int8 name='a' valueReference='1' start='1'><Dimension valueReference='1'/></Int8>"),
-     "1 to a million elements, not of a"},
+     "an array of 0 or more than a million elements: a"},
     {VARIABLES("\n<Clock name='tick' valueReference='1'/>"),
      "x.fmu: modelDescription.xml:2: has a clock, which is not supported: tick"},
     {"<!DOCTYPE f [<!ENTITY a 'b'>]>" ROOT_2 "&a;" END, "has a DOCTYPE"},

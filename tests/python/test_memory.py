@@ -63,7 +63,7 @@ class TestLeaks(Case):
         def work():
             with moved.begin(resting_frame()) as run:
                 run.advance(1e-3)
-                run.tell_base(resting_frame())
+                run.set_base(resting_frame())
                 moved.simulation().load(run.save())
         self.assertLess(self.grows(work), 100)
 

@@ -233,7 +233,7 @@ class TestExternalBase(Case):
             while not run.finished:
                 run.advance(run.time + 1e-3)
                 if not run.finished:
-                    run.tell_base(resting_frame())
+                    run.set_base(resting_frame())
             told = run.end()
         for name in ("pitch_rate", "yaw_rate", "exit_speed"):
             apart = told.summary[f"rocket.1.{name}"] - fixed.summary[f"rocket.1.{name}"]
@@ -247,14 +247,14 @@ class TestExternalBase(Case):
     def test_wrong_frames(self):
         with external().begin(resting_frame()) as run:
             with self.assertRaises(ld.InputError):
-                run.tell_base(ld.BaseFrame((0, 0, 0), (2, 0, 0, 0)))
+                run.set_base(ld.BaseFrame((0, 0, 0), (2, 0, 0, 0)))
             with self.assertRaises(ld.InputError):
-                run.tell_base(ld.BaseFrame((math.nan, 0, 0)))
+                run.set_base(ld.BaseFrame((math.nan, 0, 0)))
             with self.assertRaises((TypeError, ValueError, RuntimeError)):
-                run.tell_base(ld.BaseFrame((0, 0, 0, 0)))
+                run.set_base(ld.BaseFrame((0, 0, 0, 0)))
         with ld.Scenario.read(FIXED).begin() as run:
             with self.assertRaises(ld.InputError):
-                run.tell_base(resting_frame())
+                run.set_base(resting_frame())
 
     def test_our_vehicle_beside_our_launcher(self):
         """docs/coupling.md: every 1 ms exit rates within 0.13 mrad/s of all together."""
@@ -267,13 +267,13 @@ class TestExternalBase(Case):
         with vehicle, launcher.begin(vehicle.frame()) as run:
             self.assertEqual(vehicle.time, run.time)
             while not run.finished:
-                vehicle.tell_wrench(run.wrench())
+                vehicle.set_wrench(run.wrench())
                 t = run.time + 1e-3
                 run.advance(t)
                 if run.finished:
                     break
                 vehicle.advance(t)
-                run.tell_base(vehicle.frame())
+                run.set_base(vehicle.frame())
             apart = run.end()
             self.assertEqual(len(vehicle.row()), len(vehicle.columns))
         for name in ("pitch_rate", "yaw_rate"):

@@ -61,26 +61,30 @@ static inline double benchmark_energy(const benchmark *b, const double *q, const
     return e.kinetic + e.potential + e.elastic;
 }
 
+typedef struct planar_point {
+    double x, y;
+} planar_point;
+
 // A body whose hinge turns about z.
-static inline ld_mstmm_element planar_body(const char *name, const char *parent, double x, double y,
-                                           double mass, double x_c, double y_c, double inertia)
+static inline ld_mstmm_element planar_body(const char *name, const char *parent, planar_point at,
+                                           double mass, planar_point center, double inertia)
 {
     return (ld_mstmm_element){.name = name,
                               .parent = parent,
-                              .at = {x, y, 0},
+                              .at = {at.x, at.y, 0},
                               .hinge = LD_HINGE_REVOLUTE,
                               .axis = {0, 0, 1},
                               .mass = mass,
-                              .center = {x_c, y_c, 0},
+                              .center = {center.x, center.y, 0},
                               .inertia = {inertia, inertia, inertia}};
 }
 
-static inline ld_mstmm_loop planar_pin(const char *name, const char *first, double x, double y,
-                                       const char *second, double x_2, double y_2)
+static inline ld_mstmm_loop planar_pin(const char *name, const char *first, planar_point at,
+                                       const char *second, planar_point at_2)
 {
     return (ld_mstmm_loop){.name = name,
-                           .first = {.element = first, .at = {x, y, 0}},
-                           .second = {.element = second, .at = {x_2, y_2, 0}},
+                           .first = {.element = first, .at = {at.x, at.y, 0}},
+                           .second = {.element = second, .at = {at_2.x, at_2.y, 0}},
                            .joint = LD_HINGE_REVOLUTE,
                            .axis = {0, 0, 1}};
 }
@@ -89,7 +93,8 @@ static inline ld_mstmm_loop planar_pin(const char *name, const char *first, doub
 
 static inline benchmark simple_pendulum(void)
 {
-    ld_mstmm_element e = planar_body("bob", NULL, 0, 0, 1, -1, 0, 0);
+    ld_mstmm_element e =
+        planar_body("bob", NULL, (planar_point){0, 0}, 1, (planar_point){-1, 0}, 0);
     const ld_mstmm_description d = {.elements = &e, .element_count = 1, .gravity = {0, -9.81, 0}};
     const double q[1] = {0}, u[1] = {0};
     return benchmark_build(&d, q, u, 10);
@@ -108,13 +113,16 @@ static inline benchmark four_bars(int n)
         benchmark_fail("no memory");
     for (int i = 0; i <= n; i++) {
         snprintf(name[i], sizeof *name, "upright %d", i);
-        e[i] = planar_body(name[i], NULL, i, 0, 1, 0, 0.5, 1.0 / 12);
+        e[i] =
+            planar_body(name[i], NULL, (planar_point){i, 0}, 1, (planar_point){0, 0.5}, 1.0 / 12);
     }
     for (int i = 0; i < n; i++) {
         snprintf(name[n + 1 + i], sizeof *name, "bar %d", i);
         snprintf(name[rods + (size_t)i], sizeof *name, "pin %d", i);
-        e[n + 1 + i] = planar_body(name[n + 1 + i], name[i], 0, 1, 1, 0.5, 0, 1.0 / 12);
-        l[i] = planar_pin(name[rods + (size_t)i], name[n + 1 + i], 1, 0, name[i + 1], 0, 1);
+        e[n + 1 + i] = planar_body(name[n + 1 + i], name[i], (planar_point){0, 1}, 1,
+                                   (planar_point){0.5, 0}, 1.0 / 12);
+        l[i] = planar_pin(name[rods + (size_t)i], name[n + 1 + i], (planar_point){1, 0},
+                          name[i + 1], (planar_point){0, 1});
     }
     u[0] = -1;
     const ld_mstmm_description d = {.elements = e,
@@ -174,17 +182,25 @@ static inline benchmark andrews_squeezer(double beta)
 {
     const double A[2] = {-0.06934, -0.00227}, B[2] = {-0.03635, 0.03273};
     const ld_mstmm_element e[7] = {
-        planar_body("OF", NULL, 0, 0, 0.04325, 0.00092, 0, 2.194e-6),
-        planar_body("FE", "OF", 0.007, 0, 0.00365, -0.0115, 0, 4.410e-7),
-        planar_body("BDE", NULL, B[0], B[1], 0.02373, 0.01043, -0.01874, 5.255e-6),
-        planar_body("AG", NULL, A[0], A[1], 0.07050, 0.02308, 0.00916, 1.169e-5),
-        planar_body("GE", "AG", 0.04, 0, 0.00706, 0, -0.00579, 5.667e-7),
-        planar_body("AH", NULL, A[0], A[1], 0.05498, -0.00449, -0.01228, 1.912e-5),
-        planar_body("HE", "AH", 0, -0.04, 0.00706, 0.00579, 0, 5.667e-7),
+        planar_body("OF", NULL, (planar_point){0, 0}, 0.04325, (planar_point){0.00092, 0},
+                    2.194e-6),
+        planar_body("FE", "OF", (planar_point){0.007, 0}, 0.00365, (planar_point){-0.0115, 0},
+                    4.410e-7),
+        planar_body("BDE", NULL, (planar_point){B[0], B[1]}, 0.02373,
+                    (planar_point){0.01043, -0.01874}, 5.255e-6),
+        planar_body("AG", NULL, (planar_point){A[0], A[1]}, 0.07050,
+                    (planar_point){0.02308, 0.00916}, 1.169e-5),
+        planar_body("GE", "AG", (planar_point){0.04, 0}, 0.00706, (planar_point){0, -0.00579},
+                    5.667e-7),
+        planar_body("AH", NULL, (planar_point){A[0], A[1]}, 0.05498,
+                    (planar_point){-0.00449, -0.01228}, 1.912e-5),
+        planar_body("HE", "AH", (planar_point){0, -0.04}, 0.00706, (planar_point){0.00579, 0},
+                    5.667e-7),
     };
-    const ld_mstmm_loop l[3] = {planar_pin("E of FE", "BDE", 0, -0.035, "FE", -0.028, 0),
-                                planar_pin("E of GE", "BDE", 0, -0.035, "GE", 0, -0.02),
-                                planar_pin("E of HE", "BDE", 0, -0.035, "HE", 0.02, 0)};
+    const ld_mstmm_loop l[3] = {
+        planar_pin("E of FE", "BDE", (planar_point){0, -0.035}, "FE", (planar_point){-0.028, 0}),
+        planar_pin("E of GE", "BDE", (planar_point){0, -0.035}, "GE", (planar_point){0, -0.02}),
+        planar_pin("E of HE", "BDE", (planar_point){0, -0.035}, "HE", (planar_point){0.02, 0})};
     const ld_mstmm_description d = {.elements = e, .element_count = 7, .loops = l, .loop_count = 3};
     const double q[7] = {beta, 0, 0.45, 0.49, 0.22, 1.23, -0.22}, u[7] = {0};
     benchmark b = benchmark_build(&d, q, u, 0.05);

@@ -419,7 +419,7 @@ static void what_makes_no_frame_is_refused(void **state)
     bad = frame;
     bad.quaternion[0] *= 1.1;
     assert_int_equal(ld_run_set_base(run, &bad, &error), LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "the base is told a quaternion of length 1.09"));
+    assert_non_null(strstr(error.text, "the base received a quaternion of length 1.09"));
     fails(ld_run_advance(run, -0.15, &error), &error,
           "the run is at t = -0.1 s and cannot continue to t = -0.15 s");
     // it continues all the same
