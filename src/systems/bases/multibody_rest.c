@@ -148,7 +148,9 @@ static void relax(const rest_problem *the, double *J, double *work, double *stat
     double a[MECHANISM_MOST_SPEEDS + 3 * LD_MAX_WHEELS],
         d[MECHANISM_MOST_SPEEDS + 3 * LD_MAX_WHEELS];
     double accepted = 1e-7 * (1 + the->own->model->gravity), tau = 0.05;
-    double now = accelerations(the, state, a) ? INFINITY : norm(n, a);
+    if (n == 0 || accelerations(the, state, a))
+        return;
+    double now = norm(n, a);
     for (int turn = 0; turn < MOST_TURNS && now > accepted; turn++) {
         if (jacobian(the, state, J) || step_of(the, J, work, tau, a, d))
             return;

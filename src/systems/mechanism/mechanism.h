@@ -19,10 +19,13 @@
 #include "systems/mechanism/stabiliser.h"
 
 enum {
-    MECHANISM_MOST_ELEMENTS = LD_MAX_BODIES + LD_MAX_BEAMS + 48, // with points of beams
-    MECHANISM_MOST_COORDINATES = 192,                            // the carrier's included
+    // each force element may have a point of a beam at each end, so may the tube
+    MECHANISM_MOST_POINTS =
+        2 * LD_MAX_STRUTS + 2 * LD_MAX_BUSHINGS + LD_MAX_FEET + LD_MAX_LOADS + LD_MAX_DRAGS + 1,
+    MECHANISM_MOST_ELEMENTS = LD_MAX_BODIES + LD_MAX_BEAMS + MECHANISM_MOST_POINTS + 1, // carrier
+    MECHANISM_MOST_COORDINATES = 192, // the carrier's included
     MECHANISM_MOST_SPEEDS = 160,
-    MECHANISM_MOST_HOLDS = LD_MAX_DRIVES + LD_MAX_STRUTS + 8,
+    MECHANISM_MOST_HOLDS = LD_MAX_JOINTS + LD_MAX_STRUTS, // a drive or a lock on each joint
     MECHANISM_MOST_STATES = MECHANISM_MOST_COORDINATES + MECHANISM_MOST_SPEEDS +
                             (1 + DRIVE_STATES) * MECHANISM_MOST_HOLDS + LD_MAX_JOINTS +
                             2 * LD_MAX_FEET + WHEEL_STATES * LD_MAX_WHEELS + 1,
@@ -59,8 +62,7 @@ typedef struct mechanism_hold {
     int joint, strut;             // -1: none
     int q, u;                     // of the joint
     ld_follows follows;
-    int of;         // element whose yaw or pitch it follows
-    int carrier;    // element against which it turns; MECHANISM_GROUND
+    int of;         // element whose yaw or pitch it follows; -1: the tube
     double command; // where there is no control
     int drive;      // where its drive begins in the state; -1: it has none
 } mechanism_hold;
@@ -160,6 +162,8 @@ typedef struct mechanism_output {
     double power[MECHANISM_POWERS];
     double elastic; // [J]
     mechanism_report report;
+    // what acts on each element [N], [N m] about its origin, in I, but for joints
+    double wrench[6 * MECHANISM_MOST_ELEMENTS];
 } mechanism_output;
 
 #endif

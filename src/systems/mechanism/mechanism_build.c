@@ -255,9 +255,6 @@ static void hold_joint(const mechanism_system *self, mechanism_hold *hold, int j
     hold->q = ld_mstmm_coordinate_offset(self->chain, element);
     hold->u = ld_mstmm_speed_offset(self->chain, element);
     hold->command = given->kind == LD_JOINT_PRISMATIC ? given->displacement : given->angle;
-    hold->carrier = mechanism_body(self->given, given->parent);
-    if (hold->carrier < 0)
-        hold->carrier = MECHANISM_GROUND;
 }
 
 // That of a joint which closes at the start; NULL: none.
@@ -280,7 +277,7 @@ static void find_holds(mechanism_system *self)
         snprintf(hold->stream, sizeof hold->stream, "base.drives.%s", drive->name);
         hold->control = drive->form == LD_DRIVE_ANGLE ? &drive->angle : &drive->length;
         hold->follows = drive->follows;
-        hold->of = drive->of[0] ? mechanism_body(given, drive->of) : self->tube.element;
+        hold->of = drive->of[0] ? mechanism_body(given, drive->of) : -1;
         hold->lock = lock_at_once(&given->joint[joint]);
     }
     for (int i = 0; i < given->joint_count; i++) {

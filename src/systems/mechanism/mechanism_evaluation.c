@@ -37,7 +37,7 @@ static double friction_of(const ld_joint *joint, bool linear, double b_dot)
 {
     const ld_hinge_friction *friction = &joint->friction;
     double force = -friction->viscous * b_dot;
-    if (!linear)
+    if (!linear && friction->coulomb > 0)
         force -= friction->coulomb * b_dot / sqrt(b_dot * b_dot + friction->rate * friction->rate);
     return force;
 }
@@ -69,6 +69,7 @@ static void load_joints(const mechanism_system *self, const mechanism_input *inp
     for (int i = 0; i < self->given->joint_count; i++) {
         const ld_joint *joint = &self->given->joint[i];
         int element = self->joint_element[i];
+        output->report.friction[i] = 0;
         if (element < 0 || !has_one_axis(joint->kind))
             continue;
         int q = ld_mstmm_coordinate_offset(self->chain, element);
@@ -206,11 +207,25 @@ static void prescribe(const mechanism_system *self, const base_frame *carrier, d
     v3_store(to + 3, m3_apply_transposed(carrier->A, carrier->alpha));
 }
 
+// Power of the carrier's joints: what its hinge transmits is what its bodies need.
+static void note_carrier(const mechanism_system *self, const mechanism_motion *motion,
+                         const double *u_dot, mechanism_output *output)
+{
+    double reaction[6 * MECHANISM_MOST_ELEMENTS];
+    const base_frame *carrier = &motion->carrier;
+    if (self->carrier < 0)
+        return;
+    ld_mstmm_reactions(self->chain, motion->q, motion->u, u_dot, output->wrench, reaction);
+    const double *on = reaction + 6 * self->carrier;
+    output->power[MECHANISM_CARRYING] +=
+        v3_dot(v3_from(on), carrier->v) + v3_dot(v3_from(on + 3), carrier->w);
+}
+
 int mechanism_evaluate(const mechanism_system *self, const mechanism_input *input,
                        const double *state, const mechanism_motion *motion, double *state_dot,
                        mechanism_output *output)
 {
-    double tau[MECHANISM_MOST_SPEEDS], wrench[6 * MECHANISM_MOST_ELEMENTS];
+    double tau[MECHANISM_MOST_SPEEDS], *wrench = output->wrench;
     double q_dot[MECHANISM_MOST_COORDINATES], u_dot[MECHANISM_MOST_SPEEDS];
     ld_mstmm *chain = self->chain;
     memset(tau, 0, (size_t)chain->u_count * sizeof *tau);
@@ -234,6 +249,7 @@ int mechanism_evaluate(const mechanism_system *self, const mechanism_input *inpu
         state_dot[self->later[k].state] = 0;
     if (ld_mstmm_accelerations(chain, motion->q, motion->u, tau, wrench, u_dot, NULL))
         return 1;
+    note_carrier(self, motion, u_dot, output);
     ld_mstmm_rates(chain, motion->q, motion->u, q_dot);
     memcpy(state_dot, q_dot, (size_t)self->q_count * sizeof *q_dot);
     memcpy(state_dot + self->q_count, u_dot, (size_t)self->u_count * sizeof *u_dot);

@@ -119,16 +119,17 @@ static void measure(v3 d, v3 w, bool pitch, hinge_report *report)
     report->measured_rate = pitch ? d_dot.y / level : (d.z * d_dot.x - d.x * d_dot.z) / square;
 }
 
-// Rate about (along) its axis of what carries it.
+// Rate about its axis of what carries a joint: of its body, less its own.
 static double rate_of_carrier(const mechanism_system *self, const mechanism_hold *hold,
                               const mechanism_motion *motion)
 {
-    if (hold->strut >= 0 || hold->carrier < 0)
+    if (hold->strut >= 0)
         return 0;
     const ld_mstmm *chain = self->chain;
-    int i = chain->element_node[self->joint_element[hold->joint]];
-    v3 axis = v4d_v3(chain->motion[i].A[2]);
-    return v3_dot(motion->body[hold->carrier].w, axis);
+    int element = self->joint_element[hold->joint];
+    v3 axis = v4d_v3(chain->motion[chain->element_node[element]].A[2]);
+    bool turns = self->given->joint[hold->joint].kind == LD_JOINT_REVOLUTE;
+    return v3_dot(motion->body[element].w, axis) - (turns ? motion->u[hold->u] : 0);
 }
 
 void mechanism_watch(const mechanism_system *self, int index, const mechanism_motion *motion,
@@ -148,9 +149,12 @@ void mechanism_watch(const mechanism_system *self, int index, const mechanism_mo
     report->measured = report->angle;
     report->measured_rate = report->rate;
     if (hold->follows != LD_FOLLOWS_JOINT) {
-        bool tube = hold->of == self->tube.element;
-        v3 d = tube ? m3_column(motion->tube.A, 0) : m3_column(motion->body[hold->of].A, 0);
-        measure(d, motion->body[hold->of].w, hold->follows == LD_FOLLOWS_PITCH, report);
+        bool pitch = hold->follows == LD_FOLLOWS_PITCH;
+        if (hold->of < 0)
+            measure(m3_column(motion->tube.A, 0), motion->tube.w, pitch, report);
+        else
+            measure(m3_column(motion->body[hold->of].A, 0), motion->body[hold->of].w, pitch,
+                    report);
     }
     report->command_rate = 0;
     report->command = hold->control

@@ -319,6 +319,7 @@ static void link_shares(ld_mstmm *s)
 {
     s->branch_count = 0;
     s->node[0].branch = -1;
+    s->node[0].load = -1;
     for (int i = 1; i <= s->node_count; i++) {
         node *n = &s->node[i], *parent = &s->node[n->parent];
         bool section = n->body == NODE_SECTION;
