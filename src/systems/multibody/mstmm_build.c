@@ -357,9 +357,10 @@ static ld_status copy_elements(ld_mstmm *s, const tree *t, const ld_mstmm_elemen
     s->element_beam = array(n, sizeof *s->element_beam, &missing);
     s->beams = array(n, sizeof *s->beams, &missing);
     s->sharing = array(0, sizeof *s->sharing, &missing);
+    if (s->sharing)
+        atomic_init(&s->sharing->systems, 1);
     if (missing)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a multibody system");
-    atomic_init(&s->sharing->systems, 1);
 
     for (int e = 0; e < s->element_count; e++) {
         const ld_mstmm_element *given = &elements[e];
