@@ -38,6 +38,7 @@ typedef enum quantity_each {
     EACH_ROLLING,
     EACH_BODY,
     EACH_BEAM,
+    EACH_JOINT,
     EACH_TURN,   // joint that turns about one axis
     EACH_SLIDER, // joint that slides along one
     EACH_DRIVE,

@@ -334,8 +334,10 @@ static void write_document(FILE *stream)
         "- Frames ([model.md](model.md)): I inertial, T the undeformed tube on its base "
         "([results.md](results.md#against-the-launcher)), R the floating frame of the tube, S its "
         "section at the rear adaptor, B the rocket.\n"
-        "- NAME is an adaptor or shoe, wheel, hinge (`azimuth`, `elevation`), parachute, modal "
-        "coordinate or [measure](scenario.md#measures), or the number of a station, support or "
+        "- NAME is an adaptor or shoe, wheel, hinge (`azimuth`, `elevation`), a part of a "
+        "multibody "
+        "base, parachute, modal coordinate or [measure](scenario.md#measures), or the number of a "
+        "station, support or "
         "slide.\n"
         "- Instants count from the rocket's ignition unless stated; what did not happen is `null` "
         "or NaN.\n"
@@ -349,6 +351,7 @@ static void write_document(FILE *stream)
     write_table(stream, "Columns of a launch", &launch_quantities);
     write_table(stream, NULL, base_vehicle.quantities);
     write_table(stream, NULL, base_fmu.quantities);
+    write_table(stream, NULL, base_multibody.quantities);
     write_table(stream, NULL, &balance_quantities);
     write_table(stream, "Columns of a flight", &flight_quantities);
     write_table(stream, "Columns of a vehicle alone", &vehicle_clock_quantities);

@@ -1,6 +1,6 @@
 // Bases of bodies, joints, loops and force elements against the independent mechanism
 // (support/dense_mechanism.h) on random states of random ones: every rate of the state, every
-// power, what is reported of drives, struts, bushings, feet and wheels.
+// power, what is reported of joints, drives, struts, bushings, feet and wheels.
 #include "support/check.h"
 
 #include <stdlib.h>
@@ -11,6 +11,8 @@
 #include "systems/bases/multibody_base.h"
 #include "systems/mechanism/mechanism_loops.h"
 
+static const double TWO_PI = 6.283185307179586476925;
+
 // What the states went through; a mode that none is in would not be tested.
 typedef struct coverage {
     int mechanisms, states, loops, redundant, carried;
@@ -20,8 +22,8 @@ typedef struct coverage {
 } coverage;
 
 typedef struct differences {
-    double speeds, coordinates, states, power, carrying, elastic, kinetic, frame, reports, closure,
-        consistency;
+    double speeds, coordinates, states, power, carrying, elastic, kinetic, frame, reports, loads,
+        joints, closure, consistency;
 } differences;
 
 static double differ(double a, double b, double size)
@@ -119,6 +121,33 @@ static void compare_reports(const dense_mechanism *dense, const multibody_report
     }
 }
 
+// What joints transmit, where constraints determine it, and how they stand.
+static void compare_joints(const mechanism_system *own, const mechanism_motion *motion,
+                           const base_output *output, const dense_mechanism_output *out,
+                           differences *worst)
+{
+    joint_load load[LD_MAX_JOINTS];
+    const ld_mechanism *given = own->given;
+    double size = 1;
+    mechanism_joint_loads(own, motion, output->rate, &output->report.multibody.mechanism, load);
+    for (int i = 0; i < given->joint_count; i++)
+        size = fmax(size, fmax(v3_norm(out->joint[i].force), v3_norm(out->joint[i].moment)));
+    for (int i = 0; i < given->joint_count; i++) {
+        bool turns = given->joint[i].kind == LD_JOINT_REVOLUTE;
+        double x[2];
+        if (out->redundant == 0) {
+            note(&worst->loads, differ_v3(load[i].force, out->joint[i].force, size));
+            note(&worst->loads, differ_v3(load[i].moment, out->joint[i].moment, size));
+        }
+        if (!turns && given->joint[i].kind != LD_JOINT_PRISMATIC)
+            continue;
+        mechanism_joint_state(own, motion, i, x);
+        double apart = x[0] - out->joint[i].position[turns];
+        note(&worst->joints, differ(0, turns ? remainder(apart, TWO_PI) : apart, 1));
+        note(&worst->joints, differ(x[1], out->joint[i].rate[turns], 1));
+    }
+}
+
 static void count_feet(const ld_mechanism *given, const dense_mechanism_output *out, coverage *seen)
 {
     for (int i = 0; i < given->foot_count; i++) {
@@ -213,6 +242,8 @@ static void compare(const base_system *base, const dense_mechanism *dense, mecha
     note(&worst->frame, differ_v3(tube.w, out.tube.w, 1));
     note(&worst->frame, differ_all(9, tube.A.a[0], out.tube.A.a[0], 1));
     compare_reports(dense, &own.report.multibody, &out, worst);
+    const multibody_base *of = base->own;
+    compare_joints(&of->of_tube[0], &found.multibody, &own, &out, worst);
     note(&worst->closure, out.open);
     note(&worst->consistency,
          out.inconsistent / fmax(1, largest(dense->u_count, out.rate + dense->q_count)));
@@ -286,6 +317,8 @@ static void random_states_of_random_mechanisms(void **state)
     CHECK_BELOW("elastic energy (relative)", worst.elastic, 3e-14);
     CHECK_BELOW("kinetic energy (relative)", worst.kinetic, 2e-14);
     CHECK_BELOW("tube's frame [m, m/s, rad/s]", worst.frame, 5e-14);
+    CHECK_BELOW("forces and moments of joints, of the largest", worst.loads, 2e-11);
+    CHECK_BELOW("coordinates and rates of joints [m, rad, m/s, rad/s]", worst.joints, 2e-14);
     CHECK_BELOW("reports of drives, struts, bushings, feet, wheels (relative)", worst.reports,
                 1e-10);
 }

@@ -14,6 +14,7 @@
 #include "model/quantity.h"
 #include "systems/bases/vehicle.h"
 #include "systems/mechanism/mechanism.h"
+#include "systems/mechanism/mechanism_joints.h"
 
 // The works of a base of kind multibody: those of its mechanism, then those of its wheels.
 enum { MULTIBODY_POWERS = MECHANISM_POWERS + MARCHING_POWERS };
@@ -89,12 +90,17 @@ typedef struct body_instant {
     double r[3], angles[3], v[3], w[3];
 } body_instant;
 
+// A joint that turns about one axis or slides along one.
+typedef struct axis_instant {
+    double state[2]; // coordinate and its rate
+    double friction; // [N m], [N]
+} axis_instant;
+
 // What the quantities of a mechanism are about.
 typedef struct multibody_instant {
     body_instant body[LD_MAX_BODIES], beam[LD_MAX_BEAMS];
-    struct {
-        double position, rate, friction;
-    } turn[LD_MAX_JOINTS], slide[LD_MAX_JOINTS];
+    axis_instant turn[LD_MAX_JOINTS], slide[LD_MAX_JOINTS];
+    joint_load joint[LD_MAX_JOINTS];
     hinge_report drive[LD_MAX_DRIVES];
     struct {
         strut_report spring;

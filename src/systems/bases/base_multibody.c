@@ -12,6 +12,7 @@
 #include "systems/bases/multibody_rest.h"
 #include "systems/mechanism/mechanism_build.h"
 #include "systems/mechanism/mechanism_evaluation.h"
+#include "systems/mechanism/mechanism_joints.h"
 #include "systems/mechanism/mechanism_loops.h"
 #include "systems/mechanism/mechanism_motion.h"
 #include "systems/mechanism/mechanism_state.h"
@@ -637,14 +638,22 @@ static const base_dynamics dynamics = {
 static const quantity of_bodies[] = {OF_BODY(body, "body")};
 static const quantity of_beams[] = {OF_BODY(beam, "beam")};
 static const quantity of_turns[] = {
-    {"joint.%s.angle", "rad", "joint %s: angle", EACH(turn, position)},
-    {"joint.%s.rate", "rad/s", "joint %s: rate of the angle", EACH(turn, rate)},
+    {"joint.%s.angle", "rad", "joint %s: angle", EACH(turn, state[0])},
+    {"joint.%s.rate", "rad/s", "joint %s: rate of the angle", EACH(turn, state[1])},
     {"joint.%s.friction", "N.m", "joint %s: friction", EACH(turn, friction)},
 };
 static const quantity of_slides[] = {
-    {"joint.%s.displacement", "m", "joint %s: displacement", EACH(slide, position)},
-    {"joint.%s.speed", "m/s", "joint %s: rate of the displacement", EACH(slide, rate)},
+    {"joint.%s.displacement", "m", "joint %s: displacement", EACH(slide, state[0])},
+    {"joint.%s.speed", "m/s", "joint %s: rate of the displacement", EACH(slide, state[1])},
     {"joint.%s.resistance", "N", "joint %s: friction", EACH(slide, friction)},
+};
+static const quantity of_joints[] = {
+    {"joint.%s.fx", "N", "joint %s: force on its body along x of I, springs, friction and drives included", EACH(joint, force.x)},
+    {"joint.%s.fy", "N", "joint %s: force on its body along y of I", EACH(joint, force.y)},
+    {"joint.%s.fz", "N", "joint %s: force on its body along z of I", EACH(joint, force.z)},
+    {"joint.%s.mx", "N.m", "joint %s: moment on its body about the joint's position, x of I", EACH(joint, moment.x)},
+    {"joint.%s.my", "N.m", "joint %s: moment on its body, y of I", EACH(joint, moment.y)},
+    {"joint.%s.mz", "N.m", "joint %s: moment on its body, z of I", EACH(joint, moment.z)},
 };
 static const quantity of_drives[] = {
     {"drive.%s.measured", "1", "drive %s: angle [rad] or length [m] that it follows", EACH(drive, measured)},
@@ -689,6 +698,7 @@ static const quantity_group quantity_groups[] = {
     {.title = "each beam", .each = EACH_BEAM, QUANTITY_ROWS(of_beams)},
     {.title = "each joint that turns about one axis", .each = EACH_TURN, QUANTITY_ROWS(of_turns)},
     {.title = "each joint that slides along one axis", .each = EACH_SLIDER, QUANTITY_ROWS(of_slides)},
+    {.title = "each joint", .each = EACH_JOINT, QUANTITY_ROWS(of_joints)},
     {.title = "each drive of a joint", .each = EACH_DRIVE, QUANTITY_ROWS(of_drives)},
     {.title = "each strut", .each = EACH_STRUT, QUANTITY_ROWS(of_struts)},
     {.title = "each foot", .each = EACH_FOOT, QUANTITY_ROWS(of_feet)},
@@ -739,12 +749,9 @@ static void find_joints(const mechanism_system *self, const mechanism_motion *mo
         ld_joint_kind kind = self->given->joint[i].kind;
         if (kind != LD_JOINT_REVOLUTE && kind != LD_JOINT_PRISMATIC)
             continue;
-        double *to = kind == LD_JOINT_REVOLUTE ? &now->turn[turns++].position
-                                               : &now->slide[slides++].position;
-        int element = self->joint_element[i];
-        to[0] = element < 0 ? NAN : motion->q[ld_mstmm_coordinate_offset(self->chain, element)];
-        to[1] = element < 0 ? NAN : motion->u[ld_mstmm_speed_offset(self->chain, element)];
-        to[2] = element < 0 ? NAN : report->friction[i];
+        axis_instant *to = kind == LD_JOINT_REVOLUTE ? &now->turn[turns++] : &now->slide[slides++];
+        mechanism_joint_state(self, motion, i, to->state);
+        to->friction = report->friction[i];
     }
 }
 
@@ -761,6 +768,7 @@ static void fill_instant(const base_system *base, const base_found *found,
         find_body(&found->multibody.body[i], &now->body[i]);
     for (int i = 0; i < given->beam_count; i++)
         find_body(&found->multibody.body[given->body_count + i], &now->beam[i]);
+    mechanism_joint_loads(self, &found->multibody, output->rate, &report->mechanism, now->joint);
     find_joints(self, &found->multibody, of, now);
     memcpy(now->drive, of->hold, (size_t)given->drive_count * sizeof *now->drive);
     for (int i = 0; i < given->strut_count; i++) {
