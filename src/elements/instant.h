@@ -1,6 +1,6 @@
 // One evaluation of the launching subsystem: the tube's constants, what the elements have loaded of
-// the state, and what acts. An element reads what stands above it in launching_evaluate and adds to
-// the forces. Letters as in formulation.md.
+// the state, and what acts. An element reads what launching_load_rocket() has loaded before it and
+// adds to the forces. Letters as in formulation.md.
 #ifndef LD_ELEMENTS_INSTANT_H
 #define LD_ELEMENTS_INSTANT_H
 

@@ -1,7 +1,7 @@
 // Free flights side by side: each lane has a flight with its own time and steps and takes the next
 // one when that has landed. Every flight has the bits that it has alone.
-#ifndef LD_SIMULATION_FLIGHT_LANES_H
-#define LD_SIMULATION_FLIGHT_LANES_H
+#ifndef LD_FLIGHT_FLIGHT_LANES_H
+#define LD_FLIGHT_FLIGHT_LANES_H
 
 #include "flight/free_flight.h"
 

@@ -1,6 +1,6 @@
 // The free flight of one rocket in time: from a state of systems/flight/flight.h to the ground.
-#ifndef LD_SIMULATION_FREE_FLIGHT_H
-#define LD_SIMULATION_FREE_FLIGHT_H
+#ifndef LD_FLIGHT_FREE_FLIGHT_H
+#define LD_FLIGHT_FREE_FLIGHT_H
 
 #include "integration/dormand_prince.h"
 #include "quantities/measuring.h"

@@ -2,8 +2,8 @@
 // and Prince (J. Comput. Appl. Math. 6, 1980), step sizes by the PI controller of Hairer, Norsett
 // and Wanner (Solving Ordinary Differential Equations I, II.4 and IV.2). Between a step's ends a
 // polynomial of degree 5, made when it is asked for.
-#ifndef LD_SIMULATION_DORMAND_PRINCE_H
-#define LD_SIMULATION_DORMAND_PRINCE_H
+#ifndef LD_INTEGRATION_DORMAND_PRINCE_H
+#define LD_INTEGRATION_DORMAND_PRINCE_H
 
 #include <stdbool.h>
 

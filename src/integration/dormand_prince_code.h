@@ -1,7 +1,8 @@
 // A step's arithmetic for integrations side by side, one in each lane (math/real.h): the text of
-// dormand_prince.c, which has one lane, and of dormand_prince_avx2.c and dormand_prince_avx512.c.
-#ifndef LD_SIMULATION_DORMAND_PRINCE_CODE_H
-#define LD_SIMULATION_DORMAND_PRINCE_CODE_H
+// dormand_prince_default.c, which has one lane, and of dormand_prince_avx2.c and
+// dormand_prince_avx512.c.
+#ifndef LD_INTEGRATION_DORMAND_PRINCE_CODE_H
+#define LD_INTEGRATION_DORMAND_PRINCE_CODE_H
 
 #include "integration/dormand_prince.h"
 #include "math/real_functions.h"

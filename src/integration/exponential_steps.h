@@ -2,8 +2,8 @@
 // (math/matrices/exponential.h), with the Jacobian of where they began as their linear part. What
 // they cannot do, an event, an instant off their grid, a stretch too rough for them, they refuse;
 // then an explicit integrator continues to an instant that they name.
-#ifndef LD_SIMULATION_EXPONENTIAL_STEPS_H
-#define LD_SIMULATION_EXPONENTIAL_STEPS_H
+#ifndef LD_INTEGRATION_EXPONENTIAL_STEPS_H
+#define LD_INTEGRATION_EXPONENTIAL_STEPS_H
 
 #include "integration/integrator.h"
 

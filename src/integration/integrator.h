@@ -1,7 +1,7 @@
 // The integrator's adapter: explicit Runge-Kutta steps with error control and event location by
 // SUNDIALS ARKODE (ERKStep), which stays behind this header.
-#ifndef LD_SIMULATION_INTEGRATOR_H
-#define LD_SIMULATION_INTEGRATOR_H
+#ifndef LD_INTEGRATION_INTEGRATOR_H
+#define LD_INTEGRATION_INTEGRATOR_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 // What a saved run begins and ends with: what it is, in which form, of which model, how long; at
 // its end a checksum.
-#ifndef LD_SIMULATION_SAVED_STATE_H
-#define LD_SIMULATION_SAVED_STATE_H
+#ifndef LD_INTEGRATION_SAVED_STATE_H
+#define LD_INTEGRATION_SAVED_STATE_H
 
 #include <stddef.h>
 

@@ -1,8 +1,8 @@
 // Serial vectors for SUNDIALS with operations of our own: the packaged library is compiled without
 // optimisation. An integrator's vectors, the library's among them, are made together, for the
 // library does not look whether it was given one.
-#ifndef LD_SIMULATION_SERIAL_VECTOR_H
-#define LD_SIMULATION_SERIAL_VECTOR_H
+#ifndef LD_INTEGRATION_SERIAL_VECTOR_H
+#define LD_INTEGRATION_SERIAL_VECTOR_H
 
 #include <stddef.h>
 #include <sundials/sundials_nvector.h>

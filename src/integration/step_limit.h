@@ -1,6 +1,6 @@
 // How short steps may become before an integration hardly continues.
-#ifndef LD_SIMULATION_STEP_LIMIT_H
-#define LD_SIMULATION_STEP_LIMIT_H
+#ifndef LD_INTEGRATION_STEP_LIMIT_H
+#define LD_INTEGRATION_STEP_LIMIT_H
 
 #include <stdint.h>
 

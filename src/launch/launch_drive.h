@@ -1,6 +1,6 @@
 // What a launch is reported from outside: where its base is, that its motor is ignited.
-#ifndef LD_LAUNCH_LAUNCH_TOLD_H
-#define LD_LAUNCH_LAUNCH_TOLD_H
+#ifndef LD_LAUNCH_LAUNCH_DRIVE_H
+#define LD_LAUNCH_LAUNCH_DRIVE_H
 
 #include "launch/launch_run.h"
 

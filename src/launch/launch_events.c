@@ -35,7 +35,8 @@ static void pass_adaptor(ld_run *run, int i, double t, const double *y)
     }
 }
 
-// Rear adaptor out: the rocket goes; the balance continues without its energy.
+// Rear adaptor out and the launcher continues (another rocket, or run.end is a time): the rocket
+// goes; the balance continues without its energy.
 static void let_rocket_go(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;

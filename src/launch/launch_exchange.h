@@ -4,8 +4,8 @@
 //
 // Its continuous states are those of the launch but for an externally driven base's, which
 // are what was given.
-#ifndef LD_SIMULATION_LAUNCH_OUTSIDE_H
-#define LD_SIMULATION_LAUNCH_OUTSIDE_H
+#ifndef LD_LAUNCH_LAUNCH_EXCHANGE_H
+#define LD_LAUNCH_LAUNCH_EXCHANGE_H
 
 #include "launchdyn/run.h"
 #include "systems/launching/launcher.h"

@@ -1,6 +1,6 @@
 // States and event indicators of a launch whose steps are taken outside, by name.
-#ifndef LD_LAUNCH_LAUNCH_OUTSIDE_NAMES_H
-#define LD_LAUNCH_LAUNCH_OUTSIDE_NAMES_H
+#ifndef LD_LAUNCH_LAUNCH_EXCHANGE_NAMES_H
+#define LD_LAUNCH_LAUNCH_EXCHANGE_NAMES_H
 
 #include "launchdyn/run.h"
 

@@ -1,7 +1,7 @@
 // One run of a launch: its state, who listens, and what its loop, rows, events, limits, summary and
 // flights keep.
-#ifndef LD_SIMULATION_LAUNCH_RUN_H
-#define LD_SIMULATION_LAUNCH_RUN_H
+#ifndef LD_LAUNCH_LAUNCH_RUN_H
+#define LD_LAUNCH_LAUNCH_RUN_H
 
 #include "launchdyn/run.h"
 #include "quantities/measuring.h"

@@ -1,8 +1,8 @@
 // The launcher linearised, with what may act on its base and with the columns of a history:
 //   x' = A x + B u + B' u' + B" u",   y = C x + D u + D' u' + D" u"
 // x: the unknowns of linear_system; u: the base_inputs that the base has; y: all columns.
-#ifndef LD_SIMULATION_PLANT_H
-#define LD_SIMULATION_PLANT_H
+#ifndef LD_LINEAR_PLANT_H
+#define LD_LINEAR_PLANT_H
 
 #include "state/simulation.h"
 

@@ -1,6 +1,6 @@
 // What a linearised launcher is in its equilibrium, and in which state its road puts it.
-#ifndef LD_SIMULATION_RESPONSE_STATE_H
-#define LD_SIMULATION_RESPONSE_STATE_H
+#ifndef LD_LINEAR_RESPONSE_STATE_H
+#define LD_LINEAR_RESPONSE_STATE_H
 
 #include "environment/road.h"
 #include "launchdyn/response.h"

@@ -1,6 +1,6 @@
 // Measures as they are taken: of a launch, or of the flight of a rocket, step by step.
-#ifndef LD_SIMULATION_MEASURING_H
-#define LD_SIMULATION_MEASURING_H
+#ifndef LD_QUANTITIES_MEASURING_H
+#define LD_QUANTITIES_MEASURING_H
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 // The tables of quantities: walked in their order, asked by name, made into columns, saved.
-#ifndef LD_SIMULATION_QUANTITY_TABLE_H
-#define LD_SIMULATION_QUANTITY_TABLE_H
+#ifndef LD_QUANTITIES_QUANTITY_TABLE_H
+#define LD_QUANTITIES_QUANTITY_TABLE_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 // What a study keeps of each rocket: the quantities of a rocket that are marked so, in their order.
-#ifndef LD_SIMULATION_STUDY_RESULTS_H
-#define LD_SIMULATION_STUDY_RESULTS_H
+#ifndef LD_QUANTITIES_STUDY_RESULTS_H
+#define LD_QUANTITIES_STUDY_RESULTS_H
 
 #include "quantities/summary_quantities.h"
 

@@ -1,7 +1,7 @@
 // What came of a run: its rockets, its equilibrium, its energies. To users it is a handle, whose
 // numbers have names (launchdyn/summary.h).
-#ifndef LD_SIMULATION_SUMMARY_H
-#define LD_SIMULATION_SUMMARY_H
+#ifndef LD_QUANTITIES_SUMMARY_H
+#define LD_QUANTITIES_SUMMARY_H
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 // The quantities of a summary: of each rocket, of the run, of each natural mode. Order and paths
 // are those of summary.json.
-#ifndef LD_SIMULATION_SUMMARY_QUANTITIES_H
-#define LD_SIMULATION_SUMMARY_QUANTITIES_H
+#ifndef LD_QUANTITIES_SUMMARY_QUANTITIES_H
+#define LD_QUANTITIES_SUMMARY_QUANTITIES_H
 
 #include "quantities/quantity_table.h"
 #include "quantities/summary.h"

@@ -1,7 +1,7 @@
 // In which directions the surfaces that a resting rocket touches carry it; in the others it has
 // play.
-#ifndef LD_SIMULATION_CARRIED_H
-#define LD_SIMULATION_CARRIED_H
+#ifndef LD_STATE_CARRIED_H
+#define LD_STATE_CARRIED_H
 
 #include "state/launch_state.h"
 

@@ -1,6 +1,6 @@
 // The events that the integrator lands on, by name.
-#ifndef LD_SIMULATION_EVENT_H
-#define LD_SIMULATION_EVENT_H
+#ifndef LD_STATE_EVENT_H
+#define LD_STATE_EVENT_H
 
 #include "state/launch_state.h"
 

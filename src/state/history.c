@@ -32,7 +32,7 @@ typedef struct launch_instant {
         direction_angles angles;
     } tip_inertial;
     bool rocket;       // in its tube: what follows is there
-    double x[X_COUNT]; // of the state
+    double x[X_COUNT]; // of the state; s at most the tube's length
     v3 v_O1;           // in I
     direction_angles angles;
     double spin;

@@ -1,8 +1,8 @@
 // The jets of rockets that have left, on the platform that carries their tubes (model.md, section
 // 6). The platform does nothing to a rocket in flight, so that one's course is found first, when it
 // leaves, and then only looked up.
-#ifndef LD_SIMULATION_JETS_H
-#define LD_SIMULATION_JETS_H
+#ifndef LD_STATE_JETS_H
+#define LD_STATE_JETS_H
 
 #include "systems/bases/vehicle.h"
 #include "systems/flight/flight.h"

@@ -1,7 +1,7 @@
 // The state of one launch besides its integrator's: which rocket in which tube, and what events
 // have switched; with the workspace that its evaluations want.
-#ifndef LD_SIMULATION_LAUNCH_STATE_H
-#define LD_SIMULATION_LAUNCH_STATE_H
+#ifndef LD_STATE_LAUNCH_STATE_H
+#define LD_STATE_LAUNCH_STATE_H
 
 #include "state/jets.h"
 #include "state/simulation.h"

@@ -1,7 +1,7 @@
 // The system of a simulation: what is computed once from the model and then stays as it is, so that
 // several runs may continue over one, each on its own thread.
-#ifndef LD_SIMULATION_SIMULATION_H
-#define LD_SIMULATION_SIMULATION_H
+#ifndef LD_STATE_SIMULATION_H
+#define LD_STATE_SIMULATION_H
 
 #include "elements/motor.h"
 #include "quantities/measuring.h"

@@ -1,4 +1,4 @@
-// The tables of a base of bodies, joints and force elements (model/mechanism.h).
+// The tables of a base of bodies, joints and force elements (model/blocks/mechanism.h).
 #include "model/fields/tables_mechanism.h"
 
 #include "model/fields/field_rows.h"

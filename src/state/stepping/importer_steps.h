@@ -1,6 +1,6 @@
 // Steps that an integrator outside takes, of which only the points are reported.
-#ifndef LD_STATE_STEPPING_OUTSIDE_STEPS_H
-#define LD_STATE_STEPPING_OUTSIDE_STEPS_H
+#ifndef LD_STATE_STEPPING_IMPORTER_STEPS_H
+#define LD_STATE_STEPPING_IMPORTER_STEPS_H
 
 #include "state/stepping/stepper.h"
 

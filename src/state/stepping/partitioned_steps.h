@@ -1,7 +1,7 @@
 // Each subsystem of a vehicle by an integrator of its own, with exchanges at fixed instants
-// (run.coupling; model.md section 2).
-#ifndef LD_STATE_STEPPING_APART_STEPS_H
-#define LD_STATE_STEPPING_APART_STEPS_H
+// (run.coupling; coupling.md).
+#ifndef LD_STATE_STEPPING_PARTITIONED_STEPS_H
+#define LD_STATE_STEPPING_PARTITIONED_STEPS_H
 
 #include "state/stepping/stepper.h"
 

@@ -1,5 +1,5 @@
 // Takes a launcher forward in time, step by step: all subsystems by one integrator, or each by its
-// own with exchanges at fixed instants (run.coupling; model.md section 2), or all by one outside,
+// own with exchanges at fixed instants (run.coupling; coupling.md), or all by one outside,
 // of which only the points are reported (importer_steps.h).
 #ifndef LD_STATE_STEPPING_PROPAGATOR_H
 #define LD_STATE_STEPPING_PROPAGATOR_H

@@ -1,6 +1,6 @@
 // The equations of motion of flights side by side, one in each lane (math/real.h): the text of
-// flight.c, which has one lane, and of flight_avx2.c and flight_avx512.c. Wind, turbulence and
-// tables are asked for lane by lane.
+// flight_default.c, which has one lane, and of flight_avx2.c and flight_avx512.c. Wind, turbulence
+// and tables are asked for lane by lane.
 #ifndef LD_SYSTEMS_FLIGHT_CODE_H
 #define LD_SYSTEMS_FLIGHT_CODE_H
 
@@ -183,7 +183,7 @@ LD_INLINE real3 roll(real c, real s, real3 a)
 // The rocket in the flow: from C to N, from N to B, mass centre and rates in B.
 typedef struct in_flow {
     const real33 *A;
-    real c, s;
+    real c, s; // cosine and sine of the roll
     real3 center, w;
 } in_flow;
 

@@ -1,6 +1,6 @@
-// A base of bodies, joints and force elements (model/mechanism.h) as a multibody system of the
-// transfer matrix method: a tree of bodies with loops, stabilisers on joints and struts, bushings,
-// jacks, wheels, loads, drag. It takes the wrench of the tube and gives frame T.
+// A base of bodies, joints and force elements (model/blocks/mechanism.h) as a multibody system of
+// the transfer matrix method: a tree of bodies with loops, stabilisers on joints and struts,
+// bushings, jacks, wheels, loads, drag. It takes the wrench of the tube and gives frame T.
 //
 // State: q coordinates and u speeds of the tree (launchdyn/mstmm.h); z of each hold, the integral
 // of its stabiliser or the torque of its equilibrium [N m], [N]; where one has a drive of its own,
