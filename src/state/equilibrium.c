@@ -62,12 +62,11 @@ void simulation_displace(const launch_state *self, int freedom, double change, d
     }
 }
 
-void simulation_move_with_base(const launch_state *self, double t, double *y)
+// Gives tube and rocket the motion of a body that rides on the base as it moves.
+static void ride_on_base(const launch_state *self, double t, double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
-    if (launcher->base.kind->dynamics)
-        launcher->base.kind->dynamics->set_start_velocity(&launcher->base, y + launcher->base_at);
     launcher_input input;
     launching_output unused;
     launching_pose pose;
@@ -82,6 +81,14 @@ void simulation_move_with_base(const launch_state *self, double t, double *y)
     v3_store(y + at->w, w);
     v3_store(y + at->V, v3_add(v, v3_cross(w, pose.p1)));
     v3_store(y + at->V + 3, w);
+}
+
+void simulation_move_with_base(const launch_state *self, double t, double *y)
+{
+    const base_system *base = &self->launcher.base;
+    if (base->kind->dynamics)
+        base->kind->dynamics->set_start_velocity(base, y + self->launcher.base_at);
+    ride_on_base(self, t, y);
 }
 
 // Step of Newton's differences.
@@ -1219,19 +1226,61 @@ static void add_rigid_motion(const launch_state *self, double t, const double *u
     v3_store(y + at->V + 3, v3_add(v3_from(y + at->V + 3), dw));
 }
 
-// Generalised momentum of the base, tube and rocket in the sum: the derivative of the kinetic
-// energy, a quadratic form, along each of its speeds.
-static void generalised_momentum(const launch_state *self, double t, const launching_phase *phase,
-                                 const double *y, double p[BASE_MOST_SPEEDS])
+// The motions that the base can make: speeds of its joints, a row each.
+typedef struct base_motions {
+    int count, speeds;
+    double *row; // [count][speeds]
+} base_motions;
+
+// Of a base whose loops tie speeds together those at which they stay closed.
+static ld_status find_motions(const launch_state *self, const double *y, base_motions *all,
+                              ld_error *error)
 {
-    for (int j = 0; j < self->launcher.base.speed_count; j++) {
+    const base_system *base = &self->launcher.base;
+    const base_dynamics *dynamics = base->kind->dynamics;
+    *all = (base_motions){.speeds = base->speed_count};
+    all->row = calloc((size_t)(all->speeds * all->speeds), sizeof *all->row);
+    if (!all->row)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's motions");
+    for (int i = 0; i < base->displacement_count; i++) {
+        double moved[LD_MAX_STATES];
+        int at = dynamics->speed_of(base, i) - base->speed_at;
+        double *row = all->row + all->count * all->speeds;
+        if (at < 0 || at >= all->speeds)
+            continue; // of a wheel
+        all->count++;
+        row[at] = 1;
+        if (!dynamics->quicken)
+            continue;
+        memcpy(moved, y + self->launcher.base_at, (size_t)base->state_count * sizeof(double));
+        memset(moved + base->speed_at, 0, (size_t)all->speeds * sizeof(double));
+        dynamics->quicken(base, i, 1, moved);
+        memcpy(row, moved + base->speed_at, (size_t)all->speeds * sizeof(double));
+    }
+    return LD_OK;
+}
+
+static void add_motion(const launch_state *self, double t, const base_motions *all, int i,
+                       double speed, double *y)
+{
+    double u[BASE_MOST_SPEEDS];
+    for (int k = 0; k < all->speeds; k++)
+        u[k] = speed * all->row[i * all->speeds + k];
+    add_rigid_motion(self, t, u, y);
+}
+
+// Generalised momentum of the base, tube and rocket in the sum: the derivative of the kinetic
+// energy, a quadratic form, along each of its motions.
+static void generalised_momentum(const launch_state *self, double t, const launching_phase *phase,
+                                 const base_motions *all, const double *y, double *p)
+{
+    for (int j = 0; j < all->count; j++) {
         double energy[2];
         for (int side = 0; side < 2; side++) {
-            double moved[LD_MAX_STATES], u[BASE_MOST_SPEEDS] = {0};
+            double moved[LD_MAX_STATES];
             launcher_input input;
-            u[j] = side ? 1 : -1;
             memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
-            add_rigid_motion(self, t, u, moved);
+            add_motion(self, t, all, j, side ? 1 : -1, moved);
             simulation_input(self, t, moved, &input);
             energy[side] = launcher_kinetic_energy(&self->launcher, &input, phase, moved);
         }
@@ -1239,44 +1288,69 @@ static void generalised_momentum(const launch_state *self, double t, const launc
     }
 }
 
-// Speeds of the base at which all, rigid as it now is, has the generalised momentum p.
-static ld_status speeds_from_momentum(const launch_state *self, double t, const double *p,
-                                      double *y, ld_error *error)
+// What a carrier that moves gives of it to the base at rest and to what rides on that.
+static void carried_momentum(const launch_state *self, double t, const launching_phase *phase,
+                             const base_motions *all, const double *y, double *p)
+{
+    const launcher_system *launcher = &self->launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    double still[LD_MAX_STATES];
+    memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
+    memset(still + launcher->base_at + launcher->base.speed_at, 0,
+           (size_t)all->speeds * sizeof(double));
+    memset(still + at->q_dot, 0, (size_t)at->nq * sizeof(double));
+    ride_on_base(self, t, still);
+    generalised_momentum(self, t, phase, all, still, p);
+}
+
+// Its part of the motion against the carrier.
+static void momentum_on_carrier(const launch_state *self, double t, const launching_phase *phase,
+                                const base_motions *all, const double *y, double *p)
+{
+    double carried[BASE_MOST_SPEEDS];
+    generalised_momentum(self, t, phase, all, y, p);
+    carried_momentum(self, t, phase, all, y, carried);
+    for (int i = 0; i < all->count; i++)
+        p[i] -= carried[i];
+}
+
+// Speeds of the base, which stands, at which all, rigid as it now is, has the momentum p.
+static ld_status speeds_from_momentum(const launch_state *self, double t, const base_motions *all,
+                                      const double *p, double *y, ld_error *error)
 {
     launching_phase phase = simulation_start_phase(self);
-    double u[BASE_MOST_SPEEDS];
+    double u[BASE_MOST_SPEEDS], speed[BASE_MOST_SPEEDS] = {0};
     lapack_int pivot[BASE_MOST_SPEEDS];
-    int n = self->launcher.base.speed_count;
+    int n = all->count;
     double *M = malloc((size_t)(n * n) * sizeof *M);
     if (!M)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's mass matrix");
     // columns of the mass matrix: momentum at unit speeds
     for (int j = 0; j < n; j++) {
-        double moved[LD_MAX_STATES], unit[BASE_MOST_SPEEDS] = {0};
-        unit[j] = 1;
+        double moved[LD_MAX_STATES];
         memcpy(moved, y, (size_t)self->launcher.state_count * sizeof(double));
-        add_rigid_motion(self, t, unit, moved);
-        generalised_momentum(self, t, &phase, moved, M + n * j);
+        add_motion(self, t, all, j, 1, moved);
+        momentum_on_carrier(self, t, &phase, all, moved, M + n * j);
     }
-    memcpy(u, p, sizeof u);
+    memcpy(u, p, (size_t)n * sizeof *u);
     bool singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n) != 0;
     free(M);
     if (singular)
         return ld_fail(error, LD_ERR_NUMERIC, "the base's mass matrix is singular");
-    add_rigid_motion(self, t, u, y);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < all->speeds; k++)
+            speed[k] += u[i] * all->row[i * all->speeds + k];
+    add_rigid_motion(self, t, speed, y);
     return LD_OK;
 }
 
-ld_status simulation_change_tube(launch_state *self, int next, double t, double *y, ld_error *error)
+// Puts the next tube on the base as it stands and moves, in equilibrium there; the base stays.
+static ld_status put_tube(launch_state *self, int next, double t, double *y, ld_error *error)
 {
-    launching_phase phase = resting_phase(self), without = {.rocket = false};
+    launching_phase phase = resting_phase(self);
     const launcher_system *launcher = &self->launcher;
-    double p[BASE_MOST_SPEEDS], still[LD_MAX_STATES];
+    double still[LD_MAX_STATES];
     size_t launching = (size_t)launcher->launching.layout.count * sizeof(double);
-    size_t speeds = (size_t)launcher->base.speed_count * sizeof(double);
-    int speeds_at = launcher->base_at + launcher->base.speed_at;
-    if (speeds)
-        generalised_momentum(self, t, &without, y, p);
     launcher_select(&self->launcher, next);
     const char *why = held_by_one(&phase, launcher->launching.adaptors.count);
     if (why)
@@ -1288,7 +1362,8 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     // the new tube in equilibrium on the base held still
     base_frame going = going_of(self, t, y);
     memcpy(still, y, (size_t)launcher->state_count * sizeof(double));
-    memset(still + speeds_at, 0, speeds);
+    memset(still + launcher->base_at + launcher->base.speed_at, 0,
+           (size_t)launcher->base.speed_count * sizeof(double));
     self->on_breech = false;
     problem tube = {.self = self,
                     .t = t,
@@ -1312,11 +1387,32 @@ ld_status simulation_change_tube(launch_state *self, int next, double t, double 
     if (status)
         return status;
     memcpy(y, found, launching);
+    return LD_OK;
+}
 
-    if (!speeds) {
-        simulation_move_with_base(self, t, y);
-        return LD_OK;
+ld_status simulation_change_tube(launch_state *self, int next, double t, double *y, ld_error *error)
+{
+    const base_system *base = &self->launcher.base;
+    launching_phase without = {.rocket = false};
+    double p[BASE_MOST_SPEEDS];
+    base_motions all;
+    if (base->speed_count == 0) {
+        ld_status status = put_tube(self, next, t, y, error);
+        if (!status)
+            simulation_move_with_base(self, t, y);
+        return status;
     }
-    memset(y + speeds_at, 0, speeds);
-    return speeds_from_momentum(self, t, p, y, error);
+    ld_status status = find_motions(self, y, &all, error);
+    if (!status) {
+        momentum_on_carrier(self, t, &without, &all, y, p);
+        status = put_tube(self, next, t, y, error);
+    }
+    if (!status) {
+        memset(y + self->launcher.base_at + base->speed_at, 0,
+               (size_t)base->speed_count * sizeof(double));
+        ride_on_base(self, t, y);
+        status = speeds_from_momentum(self, t, &all, p, y, error);
+    }
+    free(all.row);
+    return status;
 }

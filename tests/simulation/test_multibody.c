@@ -1,0 +1,141 @@
+// Launches from bases of kind multibody: what is one launcher in two descriptions launches alike.
+// ctest: slow
+#include "support/check.h"
+
+#include <string.h>
+
+#include "model/model.h"
+#include "scenario/scenario.h"
+#include "support/recorded_run.h"
+
+static ld_model read_text(const char *text, const char *const *sets, size_t count)
+{
+    ld_model model;
+    ld_messages messages = {0};
+    if (scenario_read_text(text, strlen(text), "text", LD_SOURCE_DIR "/examples", sets, count,
+                           &model, &messages)) {
+        ld_messages_print(&messages, stdout);
+        fail_msg("the scenario cannot be read");
+    }
+    return model;
+}
+
+// Largest difference of a column between two runs with the same rows, over its largest value.
+static double differ(const recorded_run *a, const recorded_run *b, const char *name)
+{
+    size_t i = recorded_column(a, name), k = recorded_column(b, name);
+    double worst = 0, size = 0;
+    assert_int_equal(a->rows, b->rows);
+    for (size_t row = 0; row < a->rows; row++) {
+        double x = recorded_value(a, row, i), y = recorded_value(b, row, k);
+        if (isnan(x) && isnan(y))
+            continue;
+        worst = fmax(worst, isnan(x - y) ? INFINITY : fabs(x - y));
+        size = fmax(size, fabs(y));
+    }
+    return worst > 0 ? worst / fmax(size, 1e-9) : 0;
+}
+
+// Two rockets from a cradle on a frame; joints to be added.
+#define CRADLE                                                                                     \
+    "include: fixed.yaml\n"                                                                        \
+    "base:\n"                                                                                      \
+    "  kind: multibody\n"                                                                          \
+    "  elevation: 20 deg\n"                                                                        \
+    "  bodies:\n"                                                                                  \
+    "    - {name: frame, mass: 900 kg, center: 0.1 0.2 0 m, inertia: 300 700 600 kg.m2}\n"         \
+    "    - {name: cradle, mass: 250 kg, center: 0.6 0.1 0 m, inertia: 20 90 90 kg.m2}\n"           \
+    "  joints:\n"
+#define REST                                                                                       \
+    "tubes: {on: cradle}\n"                                                                        \
+    "firing: [{tube: 8, at: 0 s}, {tube: 11, at: 0.3 s}]\n"                                        \
+    "run: {tolerance: 1e-11, output_step: 1 ms}\n"
+#define MOUNT(parent)                                                                              \
+    "    - {name: mount, kind: spherical, parent: " parent ", body: frame, at: 0 0.3 0 m,\n"       \
+    "       rotational_stiffness: 4e5 N.m/rad, rotational_damping: 4e3 N.m.s/rad}\n"
+#define PIVOT(more)                                                                                \
+    "    - {name: pivot, kind: revolute, parent: frame, body: cradle, at: 0.2 0.6 0 m,\n"          \
+    "       axis: 0 0 1, rotational_stiffness: 3e5 N.m/rad, rotational_damping: 3e3 "              \
+    "N.m.s/rad" more "}\n"
+#define LOOSE_ON_CARRIER                                                                           \
+    "    - {name: loose, kind: free, parent: carrier, body: cradle, at: 0.2 0.9 0 m}\n"
+#define LOOSE "    - {name: loose, kind: free, parent: ground, body: cradle, at: 0.2 0.9 0 m}\n"
+
+// Of all columns that both have.
+static double differ_most(const recorded_run *a, const recorded_run *b)
+{
+    const ld_column *of_a, *of_b;
+    size_t count_a = ld_simulation_columns(a->simulation, &of_a), compared = 0;
+    size_t count_b = ld_simulation_columns(b->simulation, &of_b);
+    double worst = 0;
+    for (size_t i = 0; i < count_a; i++)
+        for (size_t k = 0; k < count_b; k++) {
+            bool balance =
+                strncmp(of_a[i].name, "energy.", 7) == 0 || strncmp(of_a[i].name, "work.", 5) == 0;
+            if (balance || strcmp(of_a[i].name, of_b[k].name) != 0)
+                continue;
+            double d = differ(a, b, of_a[i].name);
+            worst = fmax(worst, d);
+            compared++;
+        }
+    printf("    %zu columns of %zu and %zu\n", compared, count_a, count_b);
+    return worst;
+}
+
+// A hinge of the tree, or one that closes a loop: the cradle then hangs on a free joint. The change
+// of tubes, too.
+static void a_hinge_closes_a_loop(void **state)
+{
+    (void)state;
+    ld_model tree = read_text(CRADLE MOUNT("ground") PIVOT("") REST, NULL, 0);
+    ld_model loop = read_text(CRADLE MOUNT("ground") LOOSE PIVOT("") REST, NULL, 0);
+    recorded_run a, b;
+    recorded_run_make(&a, &tree);
+    recorded_run_make(&b, &loop);
+    CHECK_BELOW("columns of both, of the largest", differ_most(&a, &b), 3e-6);
+    recorded_run_free(&a);
+    recorded_run_free(&b);
+    model_clear(&tree);
+    model_clear(&loop);
+}
+
+// On a carrier of constant velocity everything goes as on one at rest.
+static void on_a_moving_carrier(void **state)
+{
+    (void)state;
+    static const char *const columns[] = {"rocket.s",
+                                          "rocket.psi",
+                                          "contact.rear.force",
+                                          "contact.front.force",
+                                          "joint.pivot.angle",
+                                          "joint.pivot.fx",
+                                          "joint.pivot.my",
+                                          "joint.mount.fy",
+                                          "joint.mount.mz",
+                                          "tip.pitch",
+                                          "q1_dot",
+                                          "body.cradle.wx"};
+    static const char *const moving[] = {"base.velocity=3 0.5 -2 m/s"};
+    ld_model still = read_text(CRADLE MOUNT("carrier") LOOSE_ON_CARRIER PIVOT("") REST, NULL, 0);
+    ld_model goes = read_text(CRADLE MOUNT("carrier") LOOSE_ON_CARRIER PIVOT("") REST, moving, 1);
+    recorded_run a, b;
+    recorded_run_make(&a, &still);
+    recorded_run_make(&b, &goes);
+    double worst = 0;
+    for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
+        worst = fmax(worst, differ(&a, &b, columns[i]));
+    CHECK_BELOW("columns against the carrier, of the largest", worst, 2e-6);
+    recorded_run_free(&a);
+    recorded_run_free(&b);
+    model_clear(&still);
+    model_clear(&goes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_hinge_closes_a_loop),
+        cmocka_unit_test(on_a_moving_carrier),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
