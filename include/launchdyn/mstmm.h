@@ -66,7 +66,9 @@ typedef struct ld_mstmm_beam {
     int elements;                ///< finite elements at least; 0: 40
     double damping;              ///< [-] ratio, of the modes clamped at x = 0
     ld_mode_span span;           ///< LD_SPAN_FREE_FREE, or clamped shapes
-    const void *reserved[4];     ///< NULL: room for what later versions may be asked
+    int geometric_stiffness;     ///< other than 0: axial forces stiffen or soften bending
+    int reserved_number;         ///< 0
+    const void *reserved[3];     ///< NULL: room for what later versions may be asked
 } ld_mstmm_beam;
 
 /// One body and the hinge that carries it. All not mentioned may be zero.

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "elements/tube/shortening.h"
 #include "math/matrices/dense.h"
 
 enum { DEFAULT_ELEMENTS = 40 };
@@ -66,6 +67,8 @@ ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, 
                    .damping = given->damping};
     ld_error reason = {0};
     status = flexible_tube_build(&self->tube, model, &reason);
+    if (!status && given->geometric_stiffness)
+        status = shortening_build(&self->tube, model, &reason);
     free(model);
     if (status)
         return ld_fail(error, status, "element '%s': %s", name, reason.text);
@@ -102,13 +105,29 @@ int beam_add_output(beam *self, double station)
 
 void beam_free(beam *self, bool last)
 {
-    if (last)
+    if (last) {
+        shortening_free(self->tube.shortening);
         flexible_tube_free(&self->tube);
+    }
     free(self->output);
     free(self->M);
     free(self->h);
     free(self->eta_dot);
     memset(self, 0, sizeof *self);
+}
+
+double beam_turn(const beam *self, const double *q)
+{
+    const flexible_tube *tube = &self->tube;
+    const tube_element *last = &tube->element[tube->element_count - 1];
+    double xi = last->x1 - last->x0, sum = 0;
+    for (int plane = PLANE_Y; plane <= PLANE_Z && tube->shortening; plane++)
+        for (int i = 0; i < tube->nb; i++) {
+            double slope = last->b[plane][1][i] +
+                           xi * (2 * last->b[plane][2][i] + xi * 3 * last->b[plane][3][i]);
+            sum += fabs(slope * q[plane * tube->nb + i]);
+        }
+    return sum;
 }
 
 void beam_move(beam *self, v3 w, const double *q, const double *q_dot)

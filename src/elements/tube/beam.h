@@ -36,6 +36,11 @@ void beam_free(beam *self, bool last);
 // A workspace of its own beside another beam's tube; false without memory (free it all the same).
 bool beam_copy(beam *self, const beam *from);
 
+// Bound of the turn of its far end [rad] in modal coordinates q, which geometric stiffness takes to
+// be small; 0 without that. Trial poses and differences must not turn sections by more than some
+// hundredths.
+double beam_turn(const beam *self, const double *q);
+
 // M, h and the output sections for angular velocity w of R, in R. Gravity enters as an acceleration
 // of the whole system, not here.
 void beam_move(beam *self, v3 w, const double *q, const double *q_dot);

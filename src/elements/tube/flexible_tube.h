@@ -7,6 +7,7 @@
 //   phi_x = tau . q_t,  phi_y = -b_z' . q_z,  phi_z = b_y' . q_y
 // Tangent form: b(0) = b'(0) = 0, tau(0) = 0, a(0) = 0; int b b^T dm = E in each plane, int rho I_p
 // tau tau^T dx = E, int a a^T dm = E; stiffness K = diag(omega^2), damping D = diag(2 zeta omega).
+// With geometric stiffness bending also draws axis points along x (shortening.h).
 // Where b_y = b_z (most tubes) the planes share their shapes; else G = int b_y b_z^T dm says how
 // they overlap. Lanes: counts padded to multiples of 4 with zeros (nbp, ntp, nap), so that loops
 // have fixed length.
@@ -52,6 +53,8 @@ typedef struct flexible_tube {
     int element_count;
     tube_element *element; // 64-byte aligned, owned
     tube_overlap *overlap; // 64-byte aligned, owned; NULL: the planes share their shapes, G = E
+    struct tube_shortening *shortening; // of shortening_build; NULL: axis points move
+                                        // across the axis alone
     int support_count;
     int support_element[LD_MAX_SUPPORTS]; // element that holds support k's station
 } flexible_tube;

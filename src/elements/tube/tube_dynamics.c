@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+#include "elements/tube/shortening.h"
+
 // Offsets of the four parts of q.
 typedef struct parts {
     int nb, nt, na, y, z, t, a, count;
@@ -33,7 +35,37 @@ typedef struct integrals {
     double bend[2][3][LD_NB]; // int p_a b dm by plane, a = x, y, z
     double stretch[3][LD_NA]; // int p_a a dm
     m3 W;                     // int p_a u_b dm, u = Phi q_dot
+    // of foreshortening, by plane: int H dm q, int x H dm q; rate of S_x, q_dot . int H dm q_dot;
+    // its share e of the second moment, and the rate of that
+    double drawn[2][LD_NB], drawn_x[2][LD_NB];
+    double drawing, bending_on, share, share_rate;
 } integrals;
+
+// What foreshortening adds: to the momentum all, to the angular momentum a share of what the
+// straight line and its small motion have (theory-tube.md).
+static void shorten(const flexible_tube *tube, const double *q, const double *q_dot,
+                    integrals *value)
+{
+    const tube_shortening *self = tube->shortening;
+    int nb = tube->nb;
+    memset(value->drawn, 0, sizeof value->drawn);
+    memset(value->drawn_x, 0, sizeof value->drawn_x);
+    value->drawing = value->bending_on = value->share = value->share_rate = 0;
+    for (int plane = PLANE_Y; plane <= PLANE_Z && self; plane++) {
+        const double *bent = q + plane * nb, *rate = q_dot + plane * nb;
+        const double *first = shortening_matrix(self, self->first, plane);
+        const double *second = shortening_matrix(self, self->second, plane);
+        double *drawn = value->drawn[plane], *drawn_x = value->drawn_x[plane], of_rate[LD_NB];
+        shortening_apply(tube, first, bent, drawn);
+        shortening_apply(tube, first, rate, of_rate);
+        shortening_apply(tube, second, bent, drawn_x);
+        value->S.x -= 0.5 * dot(nb, bent, drawn);
+        value->drawing -= dot(nb, rate, drawn);
+        value->bending_on += dot(nb, rate, of_rate);
+        value->share -= dot(nb, bent, drawn_x) / tube->j0;
+        value->share_rate -= 2 * dot(nb, rate, drawn_x) / tube->j0;
+    }
+}
 
 // int b u dm of a plane's shapes with the deflection that q makes in the other plane.
 static void cross_shapes(const flexible_tube *tube, int plane, const double *q, double *to)
@@ -74,6 +106,7 @@ static void integrate(const flexible_tube *tube, const double *q, const double *
         value->W.a[i][1] = dot(k.nb, of_y[i], q_dot + k.y);
         value->W.a[i][2] = dot(k.nb, of_z[i], q_dot + k.z);
     }
+    shorten(tube, q, q_dot, value);
 }
 
 static double trace(m3 m)
@@ -92,6 +125,8 @@ static void assemble_mass(const flexible_tube *tube, const integrals *value, dou
     m3 S = m3_skew(value->S);
     m3 J = m3_sub(m3_scale(trace(value->p2), m3_identity()), value->p2);
     J.a[0][0] += tube->j;
+    J.a[1][1] += value->share * tube->j0;
+    J.a[2][2] += value->share * tube->j0;
     for (int i = 0; i < 3; i++) {
         M[i * n + i] = tube->m;
         for (int j = 0; j < 3; j++) {
@@ -103,12 +138,14 @@ static void assemble_mass(const flexible_tube *tube, const integrals *value, dou
     // coupling of the frame with the modes, lower triangle: rows of Ct^T and Cr^T
     for (int i = 0; i < k.nb; i++) {
         double *row_y = M + (6 + k.y + i) * n, *row_z = M + (6 + k.z + i) * n;
+        row_y[0] -= value->drawn[PLANE_Y][i];
+        row_z[0] -= value->drawn[PLANE_Z][i];
         row_y[1] = tube->ct[PLANE_Y][i];
         row_y[3] = -value->bend[PLANE_Y][2][i];
-        row_y[5] = value->bend[PLANE_Y][0][i];
+        row_y[5] = value->bend[PLANE_Y][0][i] + value->share * tube->c[PLANE_Y][i];
         row_z[2] = tube->ct[PLANE_Z][i];
         row_z[3] = value->bend[PLANE_Z][1][i];
-        row_z[4] = -value->bend[PLANE_Z][0][i];
+        row_z[4] = -value->bend[PLANE_Z][0][i] - value->share * tube->c[PLANE_Z][i];
     }
     for (int i = 0; i < k.nt; i++)
         M[(6 + k.t + i) * n + 3] = tube->cp[i];
@@ -170,6 +207,28 @@ static void assemble_plane(const flexible_tube *tube, const integrals *value, in
     assemble_modal(&bending, motion, h + 6 + own);
 }
 
+// Those of foreshortening; of the angular momentum what its share of j0 w + c q_dot has.
+static void add_shortening(const flexible_tube *tube, const integrals *value,
+                           const tube_motion *motion, double *h)
+{
+    parts k = parts_of(tube);
+    v3 w = motion->w, g = motion->g;
+    const double *q_dot = motion->q_dot;
+    const double *c_y = tube->c[PLANE_Y], *c_z = tube->c[PLANE_Z];
+    double turn_y = -dot(k.nb, c_z, q_dot + k.z), turn_z = dot(k.nb, c_y, q_dot + k.y);
+    v3 l = v3_make(0, tube->j0 * w.y + turn_y, tube->j0 * w.z + turn_z);
+    v3 m = v3_axpy(v3_scale(value->share, v3_cross(w, l)), value->share_rate, l);
+    v3_store(h + 3, v3_sub(v3_from(h + 3), m));
+    h[0] += value->bending_on;
+    double outwards = w.y * w.y + w.z * w.z + 2 / tube->j0 * (w.y * turn_y + w.z * turn_z);
+    for (int i = 0; i < k.nb; i++) {
+        h[6 + k.y + i] -= g.x * value->drawn[PLANE_Y][i] + outwards * value->drawn_x[PLANE_Y][i] +
+                          value->share_rate * w.z * c_y[i];
+        h[6 + k.z + i] -= g.x * value->drawn[PLANE_Z][i] + outwards * value->drawn_x[PLANE_Z][i] -
+                          value->share_rate * w.y * c_z[i];
+    }
+}
+
 // Stiffness and damping of one plane.
 static void add_bending(const flexible_tube *tube, int plane, const double *q, const double *q_dot,
                         double *h)
@@ -187,7 +246,8 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value,
     memset(h, 0, (size_t)(6 + k.count) * sizeof *h);
 
     // translation: -(w x (w x S) + 2 w x Ct q_dot) + m g
-    v3 Ct_q = v3_make(dot(k.na, tube->at, q_dot + k.a), dot(k.nb, tube->ct[PLANE_Y], q_dot + k.y),
+    v3 Ct_q = v3_make(dot(k.na, tube->at, q_dot + k.a) + value->drawing,
+                      dot(k.nb, tube->ct[PLANE_Y], q_dot + k.y),
                       dot(k.nb, tube->ct[PLANE_Z], q_dot + k.z));
     v3 f = v3_scale(tube->m, g);
     f = v3_sub(f, v3_cross(w, v3_axpy(v3_cross(w, value->S), 2, Ct_q)));
@@ -215,6 +275,8 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value,
     assemble_plane(tube, value, PLANE_Y, motion, h);
     assemble_plane(tube, value, PLANE_Z, motion, h);
     assemble_modal(&stretch, motion, h + 6 + k.a);
+    if (tube->shortening)
+        add_shortening(tube, value, motion, h);
 
     // stiffness and damping
     add_bending(tube, PLANE_Y, q + k.y, q_dot + k.y, h + 6 + k.y);
@@ -282,6 +344,13 @@ double tube_damping_power(const flexible_tube *tube, const double *q_dot)
 v3 tube_first_moment(const flexible_tube *tube, const double *q)
 {
     parts k = parts_of(tube);
-    return v3_make(tube->s0 + dot(k.na, tube->at, q + k.a), dot(k.nb, tube->ct[PLANE_Y], q + k.y),
-                   dot(k.nb, tube->ct[PLANE_Z], q + k.z));
+    double drawn[LD_NB], shorter = 0;
+    for (int plane = PLANE_Y; plane <= PLANE_Z && tube->shortening; plane++) {
+        const double *bent = q + plane * k.nb;
+        const tube_shortening *self = tube->shortening;
+        shortening_apply(tube, shortening_matrix(self, self->first, plane), bent, drawn);
+        shorter += 0.5 * dot(k.nb, bent, drawn);
+    }
+    return v3_make(tube->s0 + dot(k.na, tube->at, q + k.a) - shorter,
+                   dot(k.nb, tube->ct[PLANE_Y], q + k.y), dot(k.nb, tube->ct[PLANE_Z], q + k.z));
 }

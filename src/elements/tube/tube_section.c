@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "elements/tube/shortening.h"
 #include "elements/tube/tube_dynamics.h"
 #include "math/vectors/rotation_vector.h"
 
@@ -38,6 +39,26 @@ static void shapes_at(const flexible_tube *tube, double x, v3 *Phi, v3 *Psi)
     }
 }
 
+// Foreshortening: part x of Phi, what the combination with q has twice of the displacement; returns
+// part x of the acceleration without accelerations of q.
+static double shorten(const flexible_tube *tube, double x, const double *q, const double *q_dot,
+                      v3 *Phi, double *twice)
+{
+    double Hq[LD_NB], of_rate[LD_NB], bending_on = 0;
+    *twice = 0;
+    for (int plane = PLANE_Y; plane <= PLANE_Z && tube->shortening; plane++) {
+        const double *bent = q + plane * tube->nb, *rate = q_dot + plane * tube->nb;
+        shortening_at(tube, plane, x, bent, Hq);
+        shortening_at(tube, plane, x, rate, of_rate);
+        for (int i = 0; i < tube->nb; i++) {
+            Phi[plane * tube->nb + i].x = -Hq[i];
+            *twice -= 0.5 * bent[i] * Hq[i];
+            bending_on -= rate[i] * of_rate[i];
+        }
+    }
+    return bending_on;
+}
+
 static v3 combine(int n, const v3 *column, const double *factor)
 {
     v3 sum = v3_zero();
@@ -71,12 +92,14 @@ void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, co
     v3 Phi[LD_TUBE_MODES], Psi[LD_TUBE_MODES];
     int modes = tube_mode_count(tube), n = 6 + modes;
     double inside = x < 0 ? 0 : x > tube->length ? tube->length : x;
+    double twice, pulled;
     shapes_at(tube, inside, Phi, Psi);
+    pulled = shorten(tube, inside, q, q_dot, Phi, &twice);
 
     // position, rotation and their rates against R
     v3 p = combine(modes, Phi, q), u = combine(modes, Phi, q_dot);
     v3 th = combine(modes, Psi, q), th_dot = combine(modes, Psi, q_dot);
-    p.x += inside;
+    p.x += inside - twice;
     m3 Jl = rv_left_jacobian(th);
     v3 spin = m3_apply(Jl, th_dot);
     section->position = p;
@@ -86,7 +109,8 @@ void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, co
     section->spin = spin;
 
     // gamma = (w x (w x p) + 2 w x Phi q_dot, Jl_dot Psi q_dot + w x Jl Psi q_dot)
-    v3_store(section->gamma, v3_cross(w, v3_axpy(v3_cross(w, p), 2, u)));
+    v3 moved = v3_cross(w, v3_axpy(v3_cross(w, p), 2, u));
+    v3_store(section->gamma, v3_make(moved.x + pulled, moved.y, moved.z));
     v3_store(section->gamma + 3,
              v3_add(rv_left_jacobian_derivative(th, th_dot, th_dot), v3_cross(w, spin)));
 

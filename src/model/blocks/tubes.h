@@ -22,6 +22,9 @@ typedef struct ld_point_mass {
     double mass; ///< [kg]
 } ld_point_mass;
 
+/// Whether axial forces stiffen or soften bending.
+typedef enum ld_geometric { LD_GEOMETRIC_NO, LD_GEOMETRIC_YES } ld_geometric;
+
 typedef struct ld_modes {
     int bending; ///< modes per plane
     int torsion;
@@ -29,6 +32,7 @@ typedef struct ld_modes {
     int elements; ///< finite elements along the tube (at least; section steps add nodes)
     ld_mode_span span;
     double damping; ///< [-] ratio, of the clamped modes of the bare tube
+    ld_geometric geometric_stiffness;
 } ld_modes;
 
 typedef struct ld_tail {

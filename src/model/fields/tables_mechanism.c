@@ -44,6 +44,8 @@ static const field_row body_fields[] = {
 const field_block body_block = {.fields = body_fields};
 
 static const double beam_modes[] = {4};
+static const field_word geometric_words[] = {
+    {"no", LD_GEOMETRIC_NO}, {"yes", LD_GEOMETRIC_YES}, {NULL, 0}};
 static const field_row beam_mode_fields[] = {
     {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(4),
      .initials = beam_modes, .doc = "bending modes a plane"},
@@ -54,6 +56,9 @@ static const field_row beam_mode_fields[] = {
      .doc = "finite elements along the beam, at least"},
     {"damping", NUMBER(ld_modes, damping, ""), FROM_TO(0, 1), DEFAULT(0.01),
      .doc = "damping ratio of the modes clamped at the rear end"},
+    {"geometric_stiffness", CHOICE(ld_modes, geometric_stiffness, geometric_words),
+     DEFAULT(LD_GEOMETRIC_YES),
+     .doc = "geometric stiffness: axial forces stiffen or soften bending"},
     {0}};
 static const field_block beam_modes_block = {.fields = beam_mode_fields};
 static const field_row beam_fields[] = {

@@ -15,8 +15,9 @@
 #include "systems/multibody/closing.h"
 #include "systems/multibody/loop_rows.h"
 
-// Step of the differences [rad], [m] and its fourth-order weights.
-static const double step = 2e-3;
+// Step of the differences [rad], [m]; most by which they turn sections of beams with geometric
+// stiffness [rad].
+static const double step = 2e-3, most_turn = 0.01;
 
 // q displaced by `size` along speed k of element e.
 static void displace(const ld_mstmm *s, const double *q, int speed, double size, double *out)
@@ -106,11 +107,12 @@ static void linearise_reduced(ld_mstmm *s, const double *q, linear *l)
         for (int i = 0; i < n; i++)
             C[i] = 0.5 * (C[i] - column[i]);
         static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1, -8, 8, -1};
+        double h = fmin(step, most_turn / multibody_turn(s, d));
         for (int k = 0; k < 4; k++) {
-            multibody_displace(s, q, at[k] * step, d, l->q);
+            multibody_displace(s, q, at[k] * h, d, l->q);
             forces_along(s, l, l->q, l->zero, l->zero, column);
             for (int i = 0; i < n; i++)
-                K[i] += weight[k] * column[i] / (12 * step);
+                K[i] += weight[k] * column[i] / (12 * h);
         }
     }
     memset(l->unit, 0, (size_t)l->full * sizeof *l->unit);
@@ -123,6 +125,7 @@ static void linearise(ld_mstmm *s, const double *q, linear *l)
     for (int j = 0; j < n; j++) {
         l->unit[j] = 1;
         ld_mstmm_forces(s, q, l->zero, l->unit, NULL, l->force);
+        double h = fmin(step, most_turn / multibody_turn(s, l->unit));
         l->unit[j] = 0;
         for (int i = 0; i < n; i++)
             l->M[i + n * j] = l->force[i] - l->other[i];
@@ -130,10 +133,10 @@ static void linearise(ld_mstmm *s, const double *q, linear *l)
         // the force needed to hold grows by K d
         static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1, -8, 8, -1};
         for (int k = 0; k < 4; k++) {
-            displace(s, q, j, at[k] * step, l->q);
+            displace(s, q, j, at[k] * h, l->q);
             ld_mstmm_forces(s, l->q, l->zero, l->zero, NULL, l->force);
             for (int i = 0; i < n; i++)
-                l->K[i + n * j] += weight[k] * l->force[i] / (12 * step);
+                l->K[i + n * j] += weight[k] * l->force[i] / (12 * h);
         }
     }
     damping_matrix(s, l);

@@ -49,15 +49,17 @@ static void add_body(element_list *list, const ld_body *body)
 
 static void add_beam(element_list *list, const ld_beam *given, ld_mstmm_beam *beam)
 {
-    *beam = (ld_mstmm_beam){.length = given->length,
-                            .section_count = given->section_count,
-                            .section = given->section,
-                            .bending = given->modes.bending,
-                            .torsion = given->modes.torsion,
-                            .axial = given->modes.axial,
-                            .elements = given->modes.elements,
-                            .damping = given->modes.damping,
-                            .span = LD_SPAN_CLAMPED};
+    *beam =
+        (ld_mstmm_beam){.length = given->length,
+                        .section_count = given->section_count,
+                        .section = given->section,
+                        .bending = given->modes.bending,
+                        .torsion = given->modes.torsion,
+                        .axial = given->modes.axial,
+                        .elements = given->modes.elements,
+                        .damping = given->modes.damping,
+                        .geometric_stiffness = given->modes.geometric_stiffness == LD_GEOMETRIC_YES,
+                        .span = LD_SPAN_CLAMPED};
     list->element[list->count++] = (ld_mstmm_element){.name = given->name, .beam = beam};
 }
 

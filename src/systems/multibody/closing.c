@@ -313,6 +313,31 @@ static double draw(uint64_t pose, int k)
     return 2 * random_uniform(0, random_stream("poses of loops"), pose, (uint64_t)k, 0) - 1;
 }
 
+double multibody_turn(const ld_mstmm *system, const double *d)
+{
+    double most = 0;
+    for (int e = 0; e < system->element_count; e++)
+        if (system->element[e].beam)
+            most = fmax(most, beam_turn(&system->beams[system->element_beam[e]],
+                                        d + system->element_u[e] + system->u_length[e]));
+    return most;
+}
+
+// A random displacement of all speeds, beams with geometric stiffness nearly straight.
+static void draw_displacement(ld_mstmm *system, uint64_t pose, double *d)
+{
+    for (int k = 0; k < system->u_count; k++)
+        d[k] = draw(pose, k);
+    double small = 0.03 / fmax(0.03, multibody_turn(system, d));
+    for (int e = 0; e < system->element_count; e++) {
+        if (!system->element[e].beam)
+            continue;
+        double *modal = d + system->element_u[e] + system->u_length[e];
+        for (int k = 0; k < system->beams[system->element_beam[e]].modes; k++)
+            modal[k] *= small;
+    }
+}
+
 // Leaves out rows that no motion of the tree opens, closed or not: those without response in random
 // states. Planar loops of spatial joints have three of them each.
 static ld_status leave_out_dead_rows(ld_mstmm *system, const double *q, ld_error *error)
@@ -327,8 +352,7 @@ static ld_status leave_out_dead_rows(ld_mstmm *system, const double *q, ld_error
             w->active_row[r] = r;
     }
     for (int pose = 0; pose < 3; pose++) {
-        for (int k = 0; k < system->u_count; k++)
-            system->response[k] = draw((uint64_t)pose, k);
+        draw_displacement(system, (uint64_t)pose, system->response);
         multibody_displace(system, q, 1, system->response, system->trial);
         if (stand(system, system->trial))
             continue;

@@ -12,6 +12,9 @@ ld_status loops_close(ld_mstmm *system, ld_error *error);
 void multibody_displace(const ld_mstmm *system, const double *q, double size, const double *d,
                         double *out);
 
+// By how much [rad] they turn the sections of beams with geometric stiffness at most.
+double multibody_turn(const ld_mstmm *system, const double *d);
+
 // Inverse dynamics with the loops' forces of the latest evaluation, of constant size along
 // directions that turn with the bodies.
 void multibody_needed_forces(ld_mstmm *system, const double *q, const double *u,
