@@ -12,7 +12,7 @@
 
 // Continues in steps of 1 ms from `from` until the pitch rate of the tip in inertial space changes
 // sign, and ignites the rocket there.
-static ld_status light_when_calm(ld_run *run, double from, ld_error *error)
+static ld_status ignite_at_rest(ld_run *run, double from, ld_error *error)
 {
     const double step = 1e-3;
     double before, now = 0, t = from;
@@ -40,14 +40,14 @@ static ld_status launch(const ld_simulation *simulation, bool waits, ld_error *e
     ld_summary *summary = ld_summary_new();
     ld_status status = ld_run_begin(simulation, NULL, &run, error);
     if (!status && waits)
-        status = light_when_calm(run, 0, error);
+        status = ignite_at_rest(run, 0, error);
     if (!status)
         status = ld_run_advance(run, INFINITY, error);
     if (!status)
         status = ld_summary_number(ld_run_summary(run), "rocket.1.pitch_rate", &rate, error);
     if (!status)
         printf("%-16s leaves its tube with a pitch rate of %.3f mrad/s\n",
-               waits ? "lit when calm" : "lit at its time", 1e3 * rate);
+               waits ? "ignited with the tip at rest" : "ignited at its time", 1e3 * rate);
     ld_error unused;
     if (ld_run_end(run, status ? NULL : summary, status ? &unused : error) && !status)
         status = error->status;

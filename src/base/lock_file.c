@@ -19,9 +19,10 @@ static bool is_in_place(int lock, const char *name)
 static ld_status cannot_lock(const char *name, const char *guarded, int number, ld_error *error)
 {
     if (number == EWOULDBLOCK)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "another launchdyn works on %s: wait for its end, or use another folder",
-                       guarded);
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "another launchdyn process uses %s: wait until it ends, or use another folder",
+            guarded);
     bool none = number == ENOSYS || number == ENOLCK || number == EOPNOTSUPP;
     if (none)
         unlink(name);

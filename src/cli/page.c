@@ -223,7 +223,8 @@ void page_print_all(const command *commands)
     }
     print_exit_codes();
     print_section("ENVIRONMENT");
-    print_item("LAUNCHDYN_PLAIN", "If set, wide registers are not used; the results are the same.");
+    print_item("LAUNCHDYN_PLAIN",
+               "If set, no AVX2 or AVX-512 instructions are used; the results are the same.");
     print_item("TMPDIR", "Folder in which FMUs are unpacked.");
     print_section("SEE ALSO");
     fputs(".BR gnuplot (1)\n", stdout);

@@ -76,11 +76,11 @@ int run_model(const ld_model *model, void *data)
     const run_wishes *wishes = data;
     ld_error error;
     if (wishes->csv && !wishes->folder) {
-        command_complain("--csv needs --out DIR");
+        command_complain("--csv requires --out DIR");
         return EXIT_INPUT;
     }
     if (wishes->report && !wishes->folder) {
-        command_complain("--report needs --out DIR");
+        command_complain("--report requires --out DIR");
         return EXIT_INPUT;
     }
     ld_simulation *simulation = NULL;

@@ -191,7 +191,7 @@ static const char *wrong_to_run(const char *file, const char *again, const study
 {
     enum { MOST_THREADS = 1024 };
     if (again && (file || wishes->run.sets))
-        return "--again FOLDER repeats the study stored in FOLDER; it excludes other words and "
+        return "--again FOLDER repeats the study stored in FOLDER; it excludes other arguments and "
                "--set";
     if (again)
         file = "";

@@ -27,7 +27,7 @@ static ld_status read_row(const char *path, const text_lines *at, double *row, l
         return refuse(path, at, 0, "expected two numbers, a frequency in Hz and a density", error);
     for (int i = 0; i < 2; i++)
         if (!is_number(at->field[i], &row[i]) || row[i] < 0)
-            return refuse(path, at, i, "expected a number, 0 or above", error);
+            return refuse(path, at, i, "expected a number >= 0", error);
     return LD_OK;
 }
 

@@ -434,7 +434,7 @@ static ld_status check_wish(const ld_model *model, const ld_response_wish *wish,
         return ld_fail(error, LD_ERR_INPUT,
                        "the scatter of the exit is caused by the road: it excludes input and loop");
     if (wish->draws && !wish->exit)
-        return ld_fail(error, LD_ERR_INPUT, "draws require the scatter of the exit");
+        return ld_fail(error, LD_ERR_INPUT, "draws require the scatter of the exit: set --exit");
     if (wish->loop && wish->friction)
         return ld_fail(error, LD_ERR_INPUT, "a loop is shown without friction of the hinges");
     if (wish->density && !wish->input)

@@ -79,7 +79,7 @@ typedef struct ld_since_ignition {
 
 /// How a hinge of a vehicle was held from a rocket's ignition to its exit.
 typedef struct ld_hinge_summary {
-    double error_rms;               ///< [rad] command less measured
+    double error_rms;               ///< [rad] command minus measured
     double torque_rms, torque_peak; ///< [N m] on the outboard body
     double saturated;               ///< [s] the torque asked for at its limit
     double power_mean, power_peak;  ///< [W] magnitude of torque times rate of the hinge

@@ -82,10 +82,10 @@ static const quantity state_at_exit[] = {
     {"exit.vx", "m/s", "velocity of the rear adaptor's centre in I at t_rear", ROCKET(exit.velocity[0]), "exit.velocity[]", KEPT},
     {"exit.vy", "m/s", "velocity of the rear adaptor's centre in I at t_rear", ROCKET(exit.velocity[1]), "exit.velocity[]", KEPT},
     {"exit.vz", "m/s", "velocity of the rear adaptor's centre in I at t_rear", ROCKET(exit.velocity[2]), "exit.velocity[]", KEPT},
-    {"exit.q0", "1", "quaternion of B against I at t_rear, scalar part", ROCKET(exit.quaternion[0]), "exit.quaternion[]"},
-    {"exit.q1", "1", "quaternion of B against I at t_rear, x", ROCKET(exit.quaternion[1]), "exit.quaternion[]"},
-    {"exit.q2", "1", "quaternion of B against I at t_rear, y", ROCKET(exit.quaternion[2]), "exit.quaternion[]"},
-    {"exit.q3", "1", "quaternion of B against I at t_rear, z", ROCKET(exit.quaternion[3]), "exit.quaternion[]"},
+    {"exit.q0", "1", "quaternion of B against I at t_rear, scalar part first", ROCKET(exit.quaternion[0]), "exit.quaternion[]"},
+    {"exit.q1", "1", "quaternion of B against I at t_rear, scalar part first", ROCKET(exit.quaternion[1]), "exit.quaternion[]"},
+    {"exit.q2", "1", "quaternion of B against I at t_rear, scalar part first", ROCKET(exit.quaternion[2]), "exit.quaternion[]"},
+    {"exit.q3", "1", "quaternion of B against I at t_rear, scalar part first", ROCKET(exit.quaternion[3]), "exit.quaternion[]"},
     {"exit.wx", "rad/s", "rate of B against I at t_rear, in B", ROCKET(exit.rate[0]), "exit.rate[]"},
     {"exit.wy", "rad/s", "rate of B against I at t_rear, in B", ROCKET(exit.rate[1]), "exit.rate[]"},
     {"exit.wz", "rad/s", "rate of B against I at t_rear, in B", ROCKET(exit.rate[2]), "exit.rate[]"},
@@ -122,7 +122,7 @@ static const quantity slot_peak[] = {
     {"max_slot_force", "N", "largest magnitude of the slot force N", ROCKET(max_slot_force), KEPT, .from_zero = true, LINE("largest slot force", "N", 1, 1)},
 };
 static const quantity pressure_peak[] = {
-    {"max_pressure", "Pa", "largest pressure behind the rocket less that before it", ROCKET(max_pressure), KEPT, .from_zero = true, LINE("largest pressure", "MPa", 1e-6, 4)},
+    {"max_pressure", "Pa", "largest pressure behind the rocket minus that before it", ROCKET(max_pressure), KEPT, .from_zero = true, LINE("largest pressure", "MPa", 1e-6, 4)},
 };
 static const quantity recoils[] = {
     {"max_recoil.%s", "m", "recoil slide %s: largest travel back from the front stop, until the change of tubes", ADAPTOR(max_recoil), KEPT, .from_zero = true, LINE("largest recoil, slide %s", "mm", MILLI, 3)},
@@ -145,7 +145,7 @@ static const quantity measures[] = {
 };
 #define HELD(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, hinge, member)
 static const quantity held[] = {
-    {"%s.error_rms", "rad", "%s: command less measured, rms", HELD(error_rms), KEPT, LINE("%s error", "mrad, rms", MILLI, 4)},
+    {"%s.error_rms", "rad", "%s: command minus measured, rms", HELD(error_rms), KEPT, LINE("%s error", "mrad, rms", MILLI, 4)},
     {"%s.torque_rms", "N.m", "%s: torque of stabiliser or lock, rms", HELD(torque_rms), KEPT, LINE("%s torque", "N.m, rms and peak", 1, 1)},
     {"%s.torque_peak", "N.m", "%s: its largest magnitude", HELD(torque_peak), KEPT, .from_zero = true, BESIDE(1)},
     {"%s.saturated", "s", "%s: time at the torque limit", HELD(saturated), KEPT, .from_zero = true, NONZERO("%s saturated", "ms", MILLI, 3)},
@@ -188,10 +188,10 @@ static const quantity final[] = {
     {"final.vx", "m/s", "velocity of the rear adaptor's centre against the ground, in I", ROCKET(final.velocity[0]), "final.velocity[]"},
     {"final.vy", "m/s", "velocity of the rear adaptor's centre against the ground, in I", ROCKET(final.velocity[1]), "final.velocity[]"},
     {"final.vz", "m/s", "velocity of the rear adaptor's centre against the ground, in I", ROCKET(final.velocity[2]), "final.velocity[]"},
-    {"final.q0", "1", "quaternion of B against I, scalar part", ROCKET(final.quaternion[0]), "final.quaternion[]"},
-    {"final.q1", "1", "quaternion of B against I, x", ROCKET(final.quaternion[1]), "final.quaternion[]"},
-    {"final.q2", "1", "quaternion of B against I, y", ROCKET(final.quaternion[2]), "final.quaternion[]"},
-    {"final.q3", "1", "quaternion of B against I, z", ROCKET(final.quaternion[3]), "final.quaternion[]"},
+    {"final.q0", "1", "quaternion of B against I, scalar part first", ROCKET(final.quaternion[0]), "final.quaternion[]"},
+    {"final.q1", "1", "quaternion of B against I, scalar part first", ROCKET(final.quaternion[1]), "final.quaternion[]"},
+    {"final.q2", "1", "quaternion of B against I, scalar part first", ROCKET(final.quaternion[2]), "final.quaternion[]"},
+    {"final.q3", "1", "quaternion of B against I, scalar part first", ROCKET(final.quaternion[3]), "final.quaternion[]"},
     {"final.wx", "rad/s", "rate of B against I, in B", ROCKET(final.rate[0]), "final.rate[]"},
     {"final.wy", "rad/s", "rate of B against I, in B", ROCKET(final.rate[1]), "final.rate[]"},
     {"final.wz", "rad/s", "rate of B against I, in B", ROCKET(final.rate[2]), "final.rate[]"},

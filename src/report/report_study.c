@@ -172,8 +172,9 @@ ld_status ld_report_write_measured(const char *const *folder, size_t count, cons
     source->measured = launches;
     ld_status status = open_studies(source, folder, count, error);
     if (!status && source->series_count == 0)
-        status = ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
-                         report->note_count ? report->note[0] : "nothing is named that has points");
+        status =
+            ld_fail(error, LD_ERR_INPUT, "no study to report: %s",
+                    report->note_count ? report->note[0] : "none of the named studies has points");
     if (!status && launches)
         status = measured_read(launches, source->series[0].data, &source->launches, error);
     if (!status)

@@ -1356,7 +1356,7 @@ static ld_status put_tube(launch_state *self, int next, double t, double *y, ld_
     if (why)
         return ld_fail(
             error, LD_ERR_LAUNCH,
-            "rocket.start_at: tube %d has no static equilibrium at its turn, t = %.6g s: %s",
+            "rocket.start_at: tube %d has no static equilibrium when it takes over, t = %.6g s: %s",
             model_firing(self->model, next)->tube, t, why);
 
     // the new tube in equilibrium on the base held still
@@ -1381,7 +1381,7 @@ static ld_status put_tube(launch_state *self, int next, double t, double *y, ld_
     char left[64];
     if (!(best <= tube.accepted))
         return ld_fail(error, LD_ERR_NUMERIC,
-                       "tube %d has no static equilibrium at its turn, t = %.6g s%s",
+                       "tube %d has no static equilibrium when it takes over, t = %.6g s%s",
                        model_firing(self->model, next)->tube, t, smallest_residual(best, left));
     status = check_carried(&tube, found, error);
     if (status)

@@ -68,10 +68,10 @@ static const quantity frames[] = {
     {"tube.x", "m", "floating frame R: origin in I", AT(tube[0])},
     {"tube.y", "m", "floating frame R: origin in I", AT(tube[1])},
     {"tube.z", "m", "floating frame R: origin in I", AT(tube[2])},
-    {"tube.q0", "1", "quaternion of R against I, scalar part", AT(tube[3])},
-    {"tube.q1", "1", "quaternion of R against I, x", AT(tube[4])},
-    {"tube.q2", "1", "quaternion of R against I, y", AT(tube[5])},
-    {"tube.q3", "1", "quaternion of R against I, z", AT(tube[6])},
+    {"tube.q0", "1", "quaternion of R against I, scalar part first", AT(tube[3])},
+    {"tube.q1", "1", "quaternion of R against I, scalar part first", AT(tube[4])},
+    {"tube.q2", "1", "quaternion of R against I, scalar part first", AT(tube[5])},
+    {"tube.q3", "1", "quaternion of R against I, scalar part first", AT(tube[6])},
     {"tube.vx", "m/s", "inertial velocity of R's origin, in R", AT(tube[7])},
     {"tube.vy", "m/s", "inertial velocity of R's origin, in R", AT(tube[8])},
     {"tube.vz", "m/s", "inertial velocity of R's origin, in R", AT(tube[9])},
@@ -159,7 +159,7 @@ static const quantity motor_now[] = {
 static const quantity contacts[] = {
     {"contact.%s.force", "N", "adaptor %s: norm of contact force", EACH(contact, force)},
     {"contact.%s.normal", "N", "adaptor %s: normal force, of several surfaces their sum", EACH(contact, normal)},
-    {"contact.%s.penetration", "m", "adaptor %s: offset less clearance (negative: gap), of several surfaces the deepest", EACH(contact, penetration)},
+    {"contact.%s.penetration", "m", "adaptor %s: offset minus clearance (negative: gap), of several surfaces the deepest", EACH(contact, penetration)},
     {"contact.%s.y", "m", "adaptor %s: offset from the axis, or from the guide line", EACH(contact, y)},
     {"contact.%s.z", "m", "adaptor %s: offset from the axis, or from the guide line", EACH(contact, z)},
 };
@@ -193,7 +193,7 @@ static const quantity open_air[] = {
     {"air.moment_z", "N.m", "moment of the air about the mass centre, about z of R", AT(out.launching.air_moment.z)},
 };
 static const quantity pressures[] = {
-    {"pressure.net", "Pa", "pressure behind the rocket less that before it", AT(out.launching.pressure)},
+    {"pressure.net", "Pa", "pressure behind the rocket minus that before it", AT(out.launching.pressure)},
     {"pressure.force", "N", "its force on the rocket along the tube", AT(out.launching.pressure_force)},
 };
 static const quantity slides[] = {

@@ -79,7 +79,7 @@ static void test_held(void **state)
     int lock = take();
     waits.count = waits.at = 0;
     waits.seconds = 0;
-    expect_refused(LD_ERR_INPUT, "another launchdyn works on DIR/x: wait for its end");
+    expect_refused(LD_ERR_INPUT, "another launchdyn process uses DIR/x: wait until it ends");
     CHECK_WITHIN("wait for a lock that stays held [s]", waits.seconds, 1.999, 2.001);
     int second;
     assert_int_equal(lock_file_try(in("x.lock"), "x", &second, NULL), LD_ERR_INPUT);

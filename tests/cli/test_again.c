@@ -173,8 +173,8 @@ static void test_a_study(void **state)
     expect_complaint("launchdyn study --again bad --out y", 2,
                      "bad/study.db is damaged: file is not a database\n");
     expect_complaint("launchdyn study --again t --out y --set gravity=1", 2,
-                     "it excludes other words and --set");
-    expect_complaint("launchdyn study show --again t", 2, "it excludes other words and --set");
+                     "it excludes other arguments and --set");
+    expect_complaint("launchdyn study show --again t", 2, "it excludes other arguments and --set");
     expect_complaint("launchdyn study", 2, "study requires ");
 }
 
@@ -248,7 +248,7 @@ static void test_damaged_and_foreign_folders(void **state)
         "rocket.motor.thrust: file \"reference-motor.eng\" is not among the stored texts\n");
     expect_complaint(AGAIN "a examples/fixed.yaml", 2, "it excludes FILE and --set\n");
     expect_complaint(AGAIN "a --set title=x", 2, "it excludes FILE and --set\n");
-    expect_complaint(AGAIN "good --csv", 2, "--csv needs --out DIR\n");
+    expect_complaint(AGAIN "good --csv", 2, "--csv requires --out DIR\n");
 }
 
 // What is kept is what was read, to the byte, and what check prints after the launcher in words.

@@ -73,8 +73,9 @@ static void test_wrong_words(void **state)
     expect_complaint("launchdyn run", 2,
                      "launchdyn: run requires FILE; see launchdyn run --help\n");
     expect_complaint("launchdyn run a b", 2, "launchdyn: run requires FILE");
-    expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv needs --out DIR\n");
-    expect_complaint("launchdyn run examples/fixed.yaml --report", 2, "--report needs --out DIR\n");
+    expect_complaint("launchdyn run examples/fixed.yaml --csv", 2, "--csv requires --out DIR\n");
+    expect_complaint("launchdyn run examples/fixed.yaml --report", 2,
+                     "--report requires --out DIR\n");
     expect_complaint("launchdyn report x", 2, "no results in x: There is no history.h5");
     expect_complaint("launchdyn report x y", 2, "report of several folders requires -o FILE\n");
     expect_complaint("launchdyn report x y -o z.html", 2, "no run to report: no results in x");
@@ -389,7 +390,7 @@ static void test_killed_at_work(void **state)
     while (access(part, F_OK) != 0)
         usleep(10000);
     expect_complaint("launchdyn run examples/fixed.yaml -q --out stopped", 2,
-                     "another launchdyn works on stopped: wait for its end");
+                     "another launchdyn process uses stopped: wait until it ends");
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
     while (kill(worker, 0) == 0)
@@ -526,7 +527,7 @@ static void test_random_input(void **state)
         const char *text, *said;
     } wrong[] = {
         {"1,2,3", "1:1: expected two numbers, a frequency in Hz and a density\n"},
-        {"1,2\\n2,-1", "2:3: expected a number, 0 or above\n"},
+        {"1,2\\n2,-1", "2:3: expected a number >= 0\n"},
         {"1,2\\n1,1", "2:1: the frequencies must rise\n"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -625,7 +626,8 @@ static void test_response_of_what_is_not_there(void **state)
          "(launchdyn response --list lists them)\n"},
         {"examples/reference.yaml --exit -i road",
          "launchdyn: the scatter of the exit is caused by the road: it excludes input and loop\n"},
-        {"examples/reference.yaml --draws 5", "launchdyn: draws require the scatter of the exit\n"},
+        {"examples/reference.yaml --draws 5",
+         "launchdyn: draws require the scatter of the exit: set --exit\n"},
         {"examples/reference.yaml --exit --draws 1",
          "launchdyn: found 1 draws, expected 0 (none) or at least 2\n"},
         {"examples/reference.yaml -x -w pich",

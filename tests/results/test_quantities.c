@@ -307,21 +307,84 @@ static void write_row(FILE *stream, const quantity *row, int count)
     fputc('\n', stream);
 }
 
-// heading NULL: it continues under the one before.
+// ---- what stands there already
+
+static const quantity *written[1024];
+static int written_count;
+
+// What a row's description is referred to: NULL where no row before has it, else the part of that
+// row's name before this one's, "energy." or "".
+static const char *same_before(const quantity *row)
+{
+    for (int i = 0; i < written_count; i++) {
+        const char *name = written[i]->name;
+        bool prefixed = strncmp(name, "energy.", 7) == 0 && strcmp(name + 7, row->name) == 0;
+        if (row->unit && written[i]->unit && strcmp(row->unit, written[i]->unit) == 0 &&
+            strcmp(row->description, written[i]->description) == 0 &&
+            (prefixed || strcmp(name, row->name) == 0))
+            return prefixed ? "energy." : "";
+    }
+    return NULL;
+}
+
+// How many rows from the first on have their descriptions above, in rows of names alike.
+static int count_repeated(const quantity *row, int count, const char **before)
+{
+    int repeated = 0;
+    *before = same_before(row);
+    for (const char *next = *before; next && strcmp(next, *before) == 0;
+         next = repeated < count ? same_before(&row[repeated]) : NULL)
+        repeated++;
+    return repeated;
+}
+
+// Rows from the first on that one line has: those described above, or those that are alike.
+static int write_line(FILE *stream, const quantity *row, int count)
+{
+    const char *before;
+    int rows = count_repeated(row, count, &before);
+    if (rows > 1 || (rows == 1 && *before)) {
+        write_names(stream, row, rows);
+        fprintf(stream, *before ? ": as `%s*` above\n" : ": as above\n", before);
+        return rows;
+    }
+    for (rows = 1; rows < count && are_alike(row, &row[rows]); rows++)
+        ;
+    write_row(stream, row, rows);
+    return rows;
+}
+
+// Whether all of a group stands above as `energy.NAME`.
+static bool is_energy(const quantity_group *group)
+{
+    const char *before;
+    return count_repeated(group->row, group->rows, &before) == group->rows && *before;
+}
+
+static void write_group(FILE *stream, const quantity_group *group)
+{
+    fprintf(stream, "\n**%c%s**\n\n", group->title[0] - 'a' + 'A', group->title + 1);
+    for (int k = 0; k < group->rows;)
+        k += write_line(stream, &group->row[k], group->rows - k);
+    for (int k = 0; k < group->rows; k++)
+        written[written_count++] = &group->row[k];
+}
+
+// heading NULL: it continues under the one before. Works that stand above have one line together.
 static void write_table(FILE *stream, const char *heading, const quantity_table *table)
 {
+    static bool works;
     if (heading)
         fprintf(stream, "\n## %s\n", heading);
-    for (int i = 0; i < table->groups; i++) {
-        const quantity_group *group = &table->group[i];
-        fprintf(stream, "\n**%c%s**\n\n", group->title[0] - 'a' + 'A', group->title + 1);
-        for (int k = 0, next; k < group->rows; k = next) {
-            for (next = k + 1; next < group->rows && are_alike(&group->row[k], &group->row[next]);
-                 next++)
-                ;
-            write_row(stream, &group->row[k], next - k);
+    works &= !heading;
+    for (int i = 0; i < table->groups; i++)
+        if (!is_energy(&table->group[i]))
+            write_group(stream, &table->group[i]);
+        else if (!works) {
+            fputs("\n**Works since the start**\n\n- `work.NAME`: as `energy.work.NAME` above\n",
+                  stream);
+            works = true;
         }
-    }
 }
 
 static void write_document(FILE *stream)
@@ -362,6 +425,7 @@ static void write_document(FILE *stream)
 static void test_document(void **state)
 {
     (void)state;
+    written_count = 0;
     char *text = markdown_wrapped(write_document), *kept = NULL;
     size_t length = strlen(text), kept_length = 0;
     text_file_read(LD_SOURCE_DIR "/docs/quantities.md", 1 << 20, &kept, &kept_length, NULL);

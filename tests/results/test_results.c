@@ -466,7 +466,7 @@ static void test_two_at_once(void **state)
     assert_int_equal(ld_output_open(in(here, "both"), &here->model, true, &output, &error), LD_OK);
     assert_int_equal(ld_output_open(in(here, "both"), &here->model, true, &second, &error),
                      LD_ERR_INPUT);
-    assert_non_null(strstr(error.text, "another launchdyn works on "));
+    assert_non_null(strstr(error.text, "another launchdyn process uses "));
     assert_null(second);
     assert_int_equal(made_run(ld_output_sink(output), 2000, &error), LD_OK);
     assert_true(exists(in(here, "both/history.h5.part")));

@@ -41,11 +41,11 @@ static void test_bad_descriptions(void **state)
     e[1].parent = "c";
     refused(e, 3,
             "element 'b' is its own ancestor: a circle never reaches the ground; joints that close "
-            "loops are described apart");
+            "loops are described separately");
     e[1].parent = "b";
     refused(e, 3,
             "element 'b' is its own ancestor: a circle never reaches the ground; joints that close "
-            "loops are described apart");
+            "loops are described separately");
     e[1] = body("a", NULL);
     refused(e, 3,
             "element 'a' is given twice: a body has one hinge that carries it, its other joints "
@@ -143,7 +143,7 @@ static void test_bad_loops(void **state)
     loop_refused(l, 1, "loop 'pin' joins 'b' with itself");
     l[0] = good;
     l[0].joint = LD_HINGE_FREE;
-    loop_refused(l, 1, "loop 'pin': a free joint holds nothing");
+    loop_refused(l, 1, "loop 'pin': a free joint constrains nothing");
     l[0].joint = (ld_hinge)77;
     loop_refused(l, 1, "loop 'pin': no such joint");
     l[0] = good;

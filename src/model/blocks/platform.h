@@ -10,7 +10,7 @@
 typedef struct ld_hinge_friction {
     double viscous; ///< [N m s/rad]
     double coulomb; ///< [N m]
-    double rate;    ///< [rad/s] w_eps, at which Coulomb friction is at 71 %
+    double rate;    ///< [rad/s] w_eps, at which Coulomb friction reaches 71 %
 } ld_hinge_friction;
 
 /// Spring-damper in place of a stabiliser, at rest in the equilibrium.

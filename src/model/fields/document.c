@@ -1,6 +1,7 @@
 // The tables of the scenario language as Markdown: a list for each block, a line for each key.
 #include "model/fields/field.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 
@@ -110,13 +111,13 @@ static void write_kind(FILE *stream, const field_row *f)
         write_words(stream, f, ", ");
 }
 
-// The numbers of a default, in the unit of the range.
+// The numbers of a default, in the unit of the range; one number where all are equal.
 static void write_numbers(FILE *stream, const field_row *f)
 {
     char number[32];
     bool angle = f->unit && strcmp(f->unit, "rad") == 0;
     double scale = angle ? 180 / 3.14159265358979323846 : 1;
-    for (int i = 0; i < (f->kind == FIELD_NUMBER ? f->count : 1); i++) {
+    for (int i = 0; i < (f->kind == FIELD_NUMBER && f->initials ? f->count : 1); i++) {
         field_number_text((f->initials ? f->initials[i] : f->initial) * scale, number);
         fprintf(stream, "%s%s", i ? " " : "", number);
     }
@@ -229,11 +230,45 @@ static void write_keys(FILE *stream, const field_block *block, const field_row *
             write_row(stream, block, f);
 }
 
+// The last path of `block` below `root`, whose own path is `path`; `last` stays where there is
+// none.
+static void find_last_path(const field_block *root, const field_block *block, const char *path,
+                           char *last, size_t size)
+{
+    char below[160];
+    for (const field_row *f = root->fields; f->name; f++) {
+        if (!f->block || is_repeated(root, f))
+            continue;
+        path_below(below, sizeof below, f, path);
+        if (f->block == block)
+            snprintf(last, size, "%s", below);
+        find_last_path(f->block, block, below, last, size);
+    }
+}
+
+// A link to the heading `path`, as sites make its anchor: letters, digits, `_`, and `-` for blanks.
+static void write_link(FILE *stream, const char *path)
+{
+    fprintf(stream, "[`%s`](#", path);
+    for (const char *c = path; *c; c++)
+        if (isalnum((unsigned char)*c) || *c == '_' || *c == ' ')
+            fputc(*c == ' ' ? '-' : tolower((unsigned char)*c), stream);
+    fprintf(stream, ")");
+}
+
+// The keys of a block stand below the last of its paths; the others refer there.
 static void write_block(FILE *stream, const field_block *block, const char *path)
 {
-    char full_path[160];
+    char full_path[160], last[160] = "";
     bool first, rest = false;
     fprintf(stream, "\n### %s\n", path[0] ? path : "The whole file");
+    find_last_path(&scenario_block, block, "", last, sizeof last);
+    if (last[0] && strcmp(last, path) != 0) {
+        fprintf(stream, "\nKeys and blocks of ");
+        write_link(stream, last);
+        fprintf(stream, ".\n");
+        return;
+    }
     for (const field_row *f = block->fields; f->name; f++)
         rest |= !has_own_list(block, f);
     if (rest)

@@ -102,7 +102,7 @@ static const field_row turn_friction_fields[] = {
     {"coulomb", NUMBER(ld_hinge_friction, coulomb, "N.m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "Coulomb friction"},
     {"rate", NUMBER(ld_hinge_friction, rate, "rad/s"), POSITIVE, DEFAULT(1e-3),
-     .doc = "at which Coulomb friction is at 71 %"},
+     .doc = "at which Coulomb friction reaches 71 %"},
     {0}};
 static const field_block turn_friction_block = {.fields = turn_friction_fields};
 static const field_row slide_friction_fields[] = {
@@ -111,7 +111,7 @@ static const field_row slide_friction_fields[] = {
     {"coulomb", NUMBER(ld_hinge_friction, coulomb, "N"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "Coulomb friction"},
     {"speed", NUMBER(ld_hinge_friction, rate, "m/s"), POSITIVE, DEFAULT(1e-3),
-     .doc = "at which Coulomb friction is at 71 %"},
+     .doc = "at which Coulomb friction reaches 71 %"},
     {0}};
 static const field_block slide_friction_block = {.fields = slide_friction_fields};
 
@@ -139,11 +139,11 @@ static const field_word lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 #define LOCKED_FROM                                                                                \
     {                                                                                              \
         "from", NUMBER(ld_joint_lock, from, "s"), ANY, NO_DEFAULT("from the start"),               \
-            .doc = "instant of the run's clock at which it closes, where the joint then stands"    \
+            .doc = "instant of the run's clock at which it closes"                                 \
     }
 static const field_row turn_lock_fields[] = {
     {"stiffness", NUMBER(ld_joint_lock, spring.stiffness, "N.m/rad"), POSITIVE, REQUIRED,
-     .doc = "about the axis, at rest where it closes"},
+     .doc = "about the axis, from the angle at which the lock closes"},
     {"damping", NUMBER(ld_joint_lock, spring.damping, "N.m.s/rad"), NOT_NEGATIVE, REQUIRED,
      .doc = "about the axis"},
     LOCKED_FROM,
@@ -151,7 +151,7 @@ static const field_row turn_lock_fields[] = {
 static const field_block turn_lock_block = {.fields = turn_lock_fields};
 static const field_row slide_lock_fields[] = {
     {"stiffness", NUMBER(ld_joint_lock, spring.stiffness, "N/m"), POSITIVE, REQUIRED,
-     .doc = "along the axis, at rest where it closes"},
+     .doc = "along the axis, from the displacement at which the lock closes"},
     {"damping", NUMBER(ld_joint_lock, spring.damping, "N.s/m"), NOT_NEGATIVE, REQUIRED,
      .doc = "along the axis"},
     LOCKED_FROM,
@@ -175,9 +175,9 @@ static const field_row joint_fields[] = {
     {"attitude", VECTOR(ld_joint, attitude, "rad", 3), TURN, DEFAULT(0),
      .doc = "yaw, pitch, roll of its axes against the parent's"},
     {"body_at", VECTOR(ld_joint, body_at, "m", 3), PLACE, NO_DEFAULT("its origin"),
-     .doc = "its position on the body, of one that closes a loop"},
+     .doc = "position on the body of a joint that closes a loop"},
     {"body_attitude", VECTOR(ld_joint, body_attitude, "rad", 3), TURN, DEFAULT(0),
-     .doc = "yaw, pitch, roll of its axes against the body's, of one that closes a loop"},
+     .doc = "yaw, pitch, roll of its axes against the body's, for a joint that closes a loop"},
     {"axis", VECTOR(ld_joint, axis, "", 3), FROM_TO(-1e6, 1e6), DEFAULT(1), .initials = along_x,
      .forms = WITH_AXIS, .doc = "axis in its own axes, of any length"},
     {"axis_2", VECTOR(ld_joint, axis_2, "", 3), FROM_TO(-1e6, 1e6), DEFAULT(0), .initials = along_y,
@@ -293,7 +293,7 @@ static const field_row joint_drive_fields[] = {
     {"of", WORD(ld_joint_drive, of), .initial_doc = "the one that carries the tube",
      .forms = FORM(LD_DRIVE_ANGLE), .doc = "body of that yaw or pitch"},
     {"angle", BLOCK(ld_joint_drive, angle, stabiliser_block), .required = true,
-     .forms = FORM(LD_DRIVE_ANGLE), .doc = "stabiliser of a revolute joint, as of a platform"},
+     .forms = FORM(LD_DRIVE_ANGLE), .doc = "stabiliser of a revolute joint, as on a platform"},
     {"length", BLOCK(ld_joint_drive, length, positioner_block), .required = true,
      .forms = FORM(LD_DRIVE_LENGTH), .doc = "the same of a prismatic joint's displacement"},
     {0}};

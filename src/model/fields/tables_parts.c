@@ -32,7 +32,7 @@ static const field_word section_forms[] = {
 #define AREA FORM(LD_SECTION_AREA)
 static const field_row section_fields[] = {
     {"from", NUMBER(ld_section, from, "m"), FROM_TO(0, 100), REQUIRED,
-     .doc = "station of its begin; up to the next section or the end"},
+     .doc = "station at which it begins; up to the next section or the end"},
     {"inner_radius", NUMBER(ld_section, bore_radius, "m"), ABOVE_TO(0, 10), REQUIRED,
      .forms = ANNULUS, .doc = "radius of the bore"},
     {"outer_radius", NUMBER(ld_section, outer_radius, "m"), ABOVE_TO(0, 10), REQUIRED,

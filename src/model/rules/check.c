@@ -169,7 +169,8 @@ static void check_correlated(model_checker *checker, const ld_scatter *scatter)
             known = group->factor[k] >= 0 && group->factor[k] < scatter->factor_count;
         snprintf(path, sizeof path, "scatter.correlated.%d", i + 1);
         if (!known)
-            refuse_rule(checker, path, "not from two of the scatter's factors to as many as fit");
+            refuse_rule(checker, path,
+                        "is not a group of two or more of the scatter's factors, or has too many");
         else if (!correlated_is_possible(scatter, group, why, sizeof why))
             refuse_rule(checker, path, why);
     }

@@ -420,14 +420,14 @@ static void adaptor_rules(const rule_set *rules)
         for (int j = 0; j < i; j++)
             if (adaptor->at == rocket->adaptor[j].at)
                 report_broken(rules, "rocket.adaptors.#.at", i + 1,
-                              "%g m is the position of adaptor %d", adaptor->at, j + 1);
+                              "%g m is already the position of adaptor %d", adaptor->at, j + 1);
         for (int j = 0; j < i; j++) {
             // a study's database does not distinguish capital letters from others in a column's
             // name
             const char *other = rocket->adaptor[j].name;
             if (adaptor->name[0] && strcasecmp(adaptor->name, other) == 0)
                 report_broken(rules, "rocket.adaptors.#.name", i + 1,
-                              "\"%s\" is the name of adaptor %d", other, j + 1);
+                              "\"%s\" is already the name of adaptor %d", other, j + 1);
         }
     }
     if (rocket->start_at >= model->tubes.length)
@@ -627,7 +627,7 @@ static void parachute_rules(const rule_set *rules)
         for (int j = 0; j < i; j++)
             if (one->name[0] && strcasecmp(one->name, rocket->parachute[j].name) == 0)
                 report_broken(rules, "rocket.parachutes.#.name", i + 1,
-                              "\"%s\" is the name of parachute %d", one->name, j + 1);
+                              "\"%s\" is already the name of parachute %d", one->name, j + 1);
     }
 }
 

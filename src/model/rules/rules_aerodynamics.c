@@ -55,7 +55,8 @@ static void surface_rules(const rule_set *rules, const ld_aerodynamics *air)
         for (int j = 0; j < i; j++)
             if (surface->name[0] && strcasecmp(surface->name, air->surface[j].name) == 0)
                 report_broken(rules, "rocket.aerodynamics.surfaces.#.name", i + 1,
-                              "\"%s\" is the name of surface %d", air->surface[j].name, j + 1);
+                              "\"%s\" is already the name of surface %d", air->surface[j].name,
+                              j + 1);
         if (surface->kind != LD_AIR_COEFFICIENTS)
             continue;
         snprintf(path, sizeof path, "rocket.aerodynamics.surfaces.%d.slope", i + 1);

@@ -39,7 +39,8 @@ static void surface_rules(const rule_set *rules)
             if (guide->surface[k].name[0] &&
                 strcasecmp(guide->surface[k].name, guide->surface[j].name) == 0)
                 report_broken(rules, "tubes.guide.surfaces.#.name", k + 1,
-                              "\"%s\" is the name of surface %d", guide->surface[j].name, j + 1);
+                              "\"%s\" is already the name of surface %d", guide->surface[j].name,
+                              j + 1);
     if (model->tubes.slot.kind == LD_SLOT_HELIX)
         report_broken(rules, "tubes.slot", 0,
                       "requires a bore; with guide.surfaces give `slot: none`");

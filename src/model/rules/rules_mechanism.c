@@ -60,7 +60,8 @@ static void names_rule(const rule_set *rules, const char *path, const char *firs
         for (int k = 0; k < i; k++) {
             const char *name = first + (size_t)i * stride;
             if (name[0] && strcmp(name, first + (size_t)k * stride) == 0)
-                report_broken(rules, path, i + 1, "\"%s\" is the name of number %d", name, k + 1);
+                report_broken(rules, path, i + 1, "\"%s\" is already the name of number %d", name,
+                              k + 1);
         }
 }
 #define NAMES_RULE(path, list, count) names_rule(rules, path, (list)[0].name, sizeof *(list), count)
@@ -80,14 +81,14 @@ static void all_names_rule(const rule_set *rules)
     for (int i = 0; i < given->beam_count; i++) {
         int body = mechanism_body(given, given->beam[i].name);
         if (body >= 0 && body < given->body_count)
-            report_broken(rules, "base.beams.#.name", i + 1, "\"%s\" is the name of a body",
+            report_broken(rules, "base.beams.#.name", i + 1, "\"%s\" is already the name of a body",
                           given->beam[i].name);
     }
     for (int i = 0; i < given->body_count; i++)
         if (strcmp(given->body[i].name, "ground") == 0 ||
             strcmp(given->body[i].name, "carrier") == 0)
             report_broken(rules, "base.bodies.#.name", i + 1,
-                          "\"%s\" stands for what does not move freely", given->body[i].name);
+                          "\"%s\" is a reserved name; choose another name", given->body[i].name);
 }
 
 // ---- joints
@@ -153,7 +154,7 @@ static void joint_rules(const rule_set *rules, int i, const int *carrier)
         report_broken(rules, "base.joints.#.body", i + 1, "\"%s\" is its own parent", joint->body);
     if (closes && joint->kind == LD_JOINT_FREE)
         report_broken(rules, "base.joints.#.kind", i + 1,
-                      "a free joint holds nothing: joint \"%s\" carries \"%s\" already",
+                      "a free joint constrains nothing: joint \"%s\" carries \"%s\" already",
                       given->joint[carrier[body]].name, joint->body);
     if (body >= 0 && !closes && !isnan(joint->body_at[0]))
         report_broken(rules, "base.joints.#.body_at", i + 1,

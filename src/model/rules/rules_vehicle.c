@@ -111,8 +111,9 @@ static void wheel_rules(const rule_set *rules)
         for (int k = 0; k < i; k++)
             if (vehicle->wheel[i].name[0] &&
                 strcmp(vehicle->wheel[i].name, vehicle->wheel[k].name) == 0)
-                report_broken(rules, "base.wheels.#.name", i + 1, "\"%s\" is the name of wheel %d",
-                              vehicle->wheel[i].name, k + 1);
+                report_broken(rules, "base.wheels.#.name", i + 1,
+                              "\"%s\" is already the name of wheel %d", vehicle->wheel[i].name,
+                              k + 1);
     }
     if (vehicle->wheel_count >= 3 && on_one_line(vehicle))
         report_broken(rules, "base.wheels", 0,

@@ -184,7 +184,7 @@ const plausible_rule plausible_of_base[] = {
      .other = "the range of that coordinate without its mean rate", NO_LOW, .high = 0.01,
      .find = motion_coarse, .why = "rows so coarse or noisy give no acceleration"},
     {"base.sea.height", "the steepness of the waves", .unit = "", NO_LOW, .high = 0.07,
-     .form = PLAUSIBLE_RATIO, .b = "the length of waves", .of = "base.sea.period",
+     .form = PLAUSIBLE_RATIO, .b = "the wavelength", .of = "base.sea.period",
      .why = "steeper waves break"},
     {"base.sea.responses", "the phase from row to row", .unit = "rad", NO_LOW,
      .high = 100 * PI / 180, .find = sea_phase_step,

@@ -100,7 +100,7 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "an error of the mass is a small part of it"},
     {"rocket.propellant", .unit = "kg", .other = "rocket.mass", NO_LOW, .high = 0.95,
      .why = "little is left of the rocket"},
-    {"rocket.propellant", .unit = "kg", .other = "the full mass less the empty one", .low = 0.5,
+    {"rocket.propellant", .unit = "kg", .other = "the full mass minus the empty one", .low = 0.5,
      .high = 2, .why = "both are what is burnt"},
     {"rocket.center.x", .unit = "m", FRONT, .low = -0.5, .high = 1.5, .of = "rocket.adaptors",
      .why = "the mass centre lies between the adaptors, or near them"},

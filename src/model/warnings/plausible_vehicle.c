@@ -43,17 +43,17 @@ static plausible_pair command_rate(const plausible_entry *at)
     return plausible_alone(most);
 }
 
-#define WHEEL_BASE .other = "the distance of front and rear wheels"
+#define WHEEL_BASE .other = "the wheelbase"
 
 const plausible_rule plausible_of_vehicle[] = {
     {"base.speed", .unit = "m/s", NO_LOW, .high = 60,
      .why = "no launcher marches faster than 216 km/h"},
     {"base.wheels", "the chassis' mass centre from rear (0) to front wheels (1)", .unit = "",
      .low = 0, .high = 1, .form = PLAUSIBLE_RATIO, .a = "the distance of the rear wheels",
-     .b = "the distance of front and rear wheels", .why = "the vehicle tips over"},
+     .b = "the wheelbase", .why = "the vehicle tips over"},
     {"base.wheels", "the chassis' mass centre from left (0) to right wheels (1)", .unit = "",
      .low = 0, .high = 1, .form = PLAUSIBLE_RATIO, .a = "the distance of the left wheels",
-     .b = "the distance of left and right wheels", .why = "the vehicle tips over"},
+     .b = "the track width", .why = "the vehicle tips over"},
     {"base.wheels.#.mount", "the distance from the nearest wheel before it", .unit = "m",
      .other = "base.tyre.radius", .low = 0.25, NO_HIGH, .find = wheel_distance,
      .why = "two wheels cannot be at one position"},
@@ -86,9 +86,9 @@ const plausible_rule plausible_of_vehicle[] = {
      .other = "base.tyre.radius", NO_LOW, .high = 0.3, .form = PLAUSIBLE_RATIO,
      .a = "the load of a tyre", .b = "base.tyre.stiffness.y", .why = "the tyre is flat"},
     {"base.tyre.stiffness.y", "the frequency of a wheel between tyre and suspension", .unit = "Hz",
-     .low = 1, .high = 200, .form = PLAUSIBLE_FREQUENCY, .a = "the stiffness about a wheel",
-     .b = "base.wheels.1.mass", .of = "base.suspension.stiffness.y",
-     .why = "that of lorries is about 10 Hz"},
+     .low = 1, .high = 200, .form = PLAUSIBLE_FREQUENCY,
+     .a = "the stiffness of suspension and tyre at a wheel", .b = "base.wheels.1.mass",
+     .of = "base.suspension.stiffness.y", .why = "that of lorries is about 10 Hz"},
     {"base.tyre.damping.y", "the decay time of a wheel's motion", .unit = "s",
      .other = "run.max_step", .low = 0.05, NO_HIGH, .form = PLAUSIBLE_DECAY,
      .b = "base.wheels.1.mass", .of = "base.wheels.#.mass",
@@ -107,8 +107,8 @@ const plausible_rule plausible_of_vehicle[] = {
      .other = "the mass of platforms, tubes and rockets on it", .low = 0.1, NO_HIGH,
      .why = "the chassis carries all of them"},
     {"platform.chassis.inertia.x", "the radius of gyration about x", .unit = "m",
-     .other = "the distance of left and right wheels", .low = 0.05, .high = 2,
-     .form = PLAUSIBLE_GYRATION, .b = "platform.chassis.mass", .of = "platform.chassis.mass",
+     .other = "the track width", .low = 0.05, .high = 2, .form = PLAUSIBLE_GYRATION,
+     .b = "platform.chassis.mass", .of = "platform.chassis.mass",
      .why = "the chassis is about as large as its wheelbase and track"},
     {"platform.chassis.inertia.z", "the radius of gyration about z", .unit = "m", WHEEL_BASE,
      .low = 0.05, .high = 2, .form = PLAUSIBLE_GYRATION, .b = "platform.chassis.mass",

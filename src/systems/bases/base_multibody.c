@@ -658,7 +658,7 @@ static const quantity of_joints[] = {
 static const quantity of_drives[] = {
     {"drive.%s.measured", "1", "drive %s: angle [rad] or length [m] that it follows", EACH(drive, measured)},
     {"drive.%s.command", "1", "drive %s: commanded angle [rad] or length [m]", EACH(drive, command)},
-    {"drive.%s.error", "1", "drive %s: command less measured", EACH(drive, error)},
+    {"drive.%s.error", "1", "drive %s: command minus measured", EACH(drive, error)},
     {"drive.%s.torque", "1", "drive %s: torque [N m] or force [N] of drive or lock", EACH(drive, torque)},
 };
 static const quantity of_struts[] = {
@@ -721,9 +721,9 @@ static const quantity forces[] = {
     {"platform.force_x", "N", "force on what carries the tube at its rear end, along the tube", INPUT(tube_force.x)},
     {"platform.force_y", "N", "the same upwards from it", INPUT(tube_force.y)},
     {"platform.force_z", "N", "the same to its right", INPUT(tube_force.z)},
-    {"platform.moment_x", "N.m", "moment on what carries the tube about the tube's x", INPUT(tube_moment.x)},
-    {"platform.moment_y", "N.m", "the same about its y", INPUT(tube_moment.y)},
-    {"platform.moment_z", "N.m", "the same about its z", INPUT(tube_moment.z)},
+    {"platform.moment_x", "N.m", "moment on what carries the tube about the tube's x axis", INPUT(tube_moment.x)},
+    {"platform.moment_y", "N.m", "moment on what carries the tube about the tube's y axis", INPUT(tube_moment.y)},
+    {"platform.moment_z", "N.m", "moment on what carries the tube about the tube's z axis", INPUT(tube_moment.z)},
 };
 // clang-format on
 static const quantity_group input_groups[] = {

@@ -556,7 +556,7 @@ static const quantity of_hinges[] = {
     {"%s.rate", "rad/s", "%s hinge: rate of the angle", EACH(report.hinge, rate)},
     {"%s.measured", "rad", "%s: yaw or pitch of the elevation platform in I", EACH(report.hinge, measured)},
     {"%s.command", "rad", "%s: commanded yaw or pitch", EACH(report.hinge, command)},
-    {"%s.error", "rad", "%s: command less measured", EACH(report.hinge, error)},
+    {"%s.error", "rad", "%s: command minus measured", EACH(report.hinge, error)},
     {"%s.torque", "N.m", "%s: torque of stabiliser or lock", EACH(report.hinge, torque)},
     {"%s.friction", "N.m", "%s: friction in the hinge", EACH(report.hinge, friction)},
 };
@@ -576,7 +576,7 @@ static const quantity of_wheels[] = {
     {"wheel.%s.side", "N", "wheel %s: lateral tyre force", EACH(report.marching.wheel, side)},
 };
 static const quantity of_jets[] = {
-    {"jet.force", "N", "force of the jets of rockets that have left on the elevation platform, along -x of T", AT(report.jet)},
+    {"jet.force", "N", "force on the elevation platform by the jets of rockets that have left, along -x of T", AT(report.jet)},
 };
 static const quantity_group quantity_groups[] = {
     {.title = "chassis of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_chassis)},
@@ -609,9 +609,9 @@ static const quantity forces[] = {
     {"platform.force_x", "N", "force on the elevation platform at the tube's rear end, along the tube", INPUT(tube_force.x)},
     {"platform.force_y", "N", "force on the elevation platform at the tube's rear end, upwards from it", INPUT(tube_force.y)},
     {"platform.force_z", "N", "force on the elevation platform at the tube's rear end, to its right", INPUT(tube_force.z)},
-    {"platform.moment_x", "N.m", "moment on the elevation platform about the tube's x", INPUT(tube_moment.x)},
-    {"platform.moment_y", "N.m", "moment on the elevation platform about the tube's y", INPUT(tube_moment.y)},
-    {"platform.moment_z", "N.m", "moment on the elevation platform about the tube's z", INPUT(tube_moment.z)},
+    {"platform.moment_x", "N.m", "moment on the elevation platform about the tube's x axis", INPUT(tube_moment.x)},
+    {"platform.moment_y", "N.m", "moment on the elevation platform about the tube's y axis", INPUT(tube_moment.y)},
+    {"platform.moment_z", "N.m", "moment on the elevation platform about the tube's z axis", INPUT(tube_moment.z)},
 };
 // clang-format on
 static const quantity_group input_groups[] = {

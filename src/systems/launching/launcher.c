@@ -129,15 +129,15 @@ static const quantity loads[] = {
     {"tip.force_x", "N", "force on the tube at its tip, along the tube", INPUT(tip_force.x)},
     {"tip.force_y", "N", "force on the tube at its tip, upwards from it", INPUT(tip_force.y)},
     {"tip.force_z", "N", "force on the tube at its tip, to its right", INPUT(tip_force.z)},
-    {"tip.moment_x", "N.m", "moment on the tube at its tip about the tube's x", INPUT(tip_moment.x)},
-    {"tip.moment_y", "N.m", "moment on the tube at its tip about the tube's y", INPUT(tip_moment.y)},
-    {"tip.moment_z", "N.m", "moment on the tube at its tip about the tube's z", INPUT(tip_moment.z)},
+    {"tip.moment_x", "N.m", "moment on the tube at its tip about the tube's x axis", INPUT(tip_moment.x)},
+    {"tip.moment_y", "N.m", "moment on the tube at its tip about the tube's y axis", INPUT(tip_moment.y)},
+    {"tip.moment_z", "N.m", "moment on the tube at its tip about the tube's z axis", INPUT(tip_moment.z)},
     {"rocket.force_x", "N", "force on the rocket at its mass centre, along the tube", INPUT(rocket_force.x)},
     {"rocket.force_y", "N", "force on the rocket at its mass centre, upwards from it", INPUT(rocket_force.y)},
     {"rocket.force_z", "N", "force on the rocket at its mass centre, to its right", INPUT(rocket_force.z)},
-    {"rocket.moment_x", "N.m", "moment on the rocket about the tube's x", INPUT(rocket_moment.x)},
-    {"rocket.moment_y", "N.m", "moment on the rocket about the tube's y", INPUT(rocket_moment.y)},
-    {"rocket.moment_z", "N.m", "moment on the rocket about the tube's z", INPUT(rocket_moment.z)},
+    {"rocket.moment_x", "N.m", "moment on the rocket about the tube's x axis", INPUT(rocket_moment.x)},
+    {"rocket.moment_y", "N.m", "moment on the rocket about the tube's y axis", INPUT(rocket_moment.y)},
+    {"rocket.moment_z", "N.m", "moment on the rocket about the tube's z axis", INPUT(rocket_moment.z)},
 };
 // clang-format on
 static const quantity_group load_groups[] = {

@@ -200,7 +200,7 @@ static ld_status order_elements(tree *t, const ld_mstmm_element *elements, ld_er
     free(seen);
     return ld_fail(error, LD_ERR_INPUT,
                    "element '%s' is its own ancestor: a circle never reaches the ground; joints "
-                   "that close loops are described apart",
+                   "that close loops are described separately",
                    elements[lost].name);
 }
 

@@ -58,7 +58,7 @@ static ld_status check_loop(const ld_mstmm_description *d, int index, ld_error *
     if (status)
         return status;
     if (l->joint == LD_HINGE_FREE)
-        return ld_fail(error, LD_ERR_INPUT, "loop '%s': a free joint holds nothing", l->name);
+        return ld_fail(error, LD_ERR_INPUT, "loop '%s': a free joint constrains nothing", l->name);
     status = check_end(d, l, &l->first, error);
     if (!status)
         status = check_end(d, l, &l->second, error);

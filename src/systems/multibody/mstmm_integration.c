@@ -106,10 +106,11 @@ ld_status ld_mstmm_integrate(ld_mstmm *system, const ld_mstmm_settings *settings
              .u_count = ld_mstmm_speed_count(system),
              .wrench_count = 6 * ld_mstmm_element_count(system)};
     size_t nq = (size_t)r.q_count, nu = (size_t)r.u_count, n = nq + nu;
-    if (n == 0 || !(t_1 >= t_0))
-        return ld_fail(error, LD_ERR_INPUT,
-                       n ? "the end lies before the start"
-                         : "a system without hinges does not move");
+    if (n == 0)
+        return ld_fail(error, LD_ERR_INPUT, "a system without hinges does not move");
+    if (!(t_1 >= t_0))
+        return ld_fail(error, LD_ERR_INPUT, "found an end at %.9g s, before the start at %.9g s",
+                       t_1, t_0);
     double *block = calloc(3 * n + nu + (size_t)r.wrench_count, sizeof *block);
     if (!block)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for an integration");
