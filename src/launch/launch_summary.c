@@ -232,6 +232,16 @@ static void note_rests(ld_summary *summary)
             printed_milli(other[2]), printed_milli(other[3]));
 }
 
+static void note_base(const launch_state *self, ld_summary *summary)
+{
+    const base_dynamics *dynamics = self->launcher.base.kind->dynamics;
+    char text[256] = "";
+    if (dynamics && dynamics->note_rest && model_run(self->model)->start == LD_START_EQUILIBRIUM)
+        dynamics->note_rest(&self->launcher.base, text, sizeof text);
+    if (text[0])
+        summary_note(summary, "%s", text);
+}
+
 // Of a launch that came to its end, the first measure that has no value.
 static void note_measures(ld_run *run)
 {
@@ -293,6 +303,7 @@ void launch_summarise(ld_run *run)
     note_measures(run);
     exit_error_note(run);
     note_rests(summary);
+    note_base(self, summary);
     if (self->system->growing.real > 0)
         summary_note(summary, "a motion about the equilibrium grows by %.3g 1/s: %s",
                      self->system->growing.real, self->system->growing.shape);

@@ -987,11 +987,14 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     if (!dynamics)
         return LD_OK;
     dynamics->guess(base, self->launcher.launching.tube.m, self->motor->full.m, of_base);
+    ld_status status = dynamics->check_held ? dynamics->check_held(base, error) : LD_OK;
     int first = launching_freedoms(self);
+    if (status || simulation_freedoms(self) == first)
+        return status;
     problem dead = {
         .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
     dead.count = simulation_freedoms(self) - first;
-    ld_status status = make_room(&dead, error);
+    status = make_room(&dead, error);
     if (status)
         return status;
     double reached = newton(&dead, y);
@@ -1333,7 +1336,7 @@ static ld_status speeds_from_momentum(const launch_state *self, double t, const 
         momentum_on_carrier(self, t, &phase, all, moved, M + n * j);
     }
     memcpy(u, p, (size_t)n * sizeof *u);
-    bool singular = LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n) != 0;
+    bool singular = n > 0 && LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, M, n, pivot, u, n) != 0;
     free(M);
     if (singular)
         return ld_fail(error, LD_ERR_NUMERIC, "the base's mass matrix is singular");

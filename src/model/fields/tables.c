@@ -496,7 +496,7 @@ static const field_row base_fields[] = {
     {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true,
      .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, .initial_doc = WITHOUT_WHEELS,
      .doc = "height over x of I: flat, or the sum of what is given"},
-    {"wheels", LIST(ld_base, vehicle.wheel, vehicle.wheel_count, wheel_block, 3, LD_MAX_WHEELS),
+    {"wheels", LIST(ld_base, vehicle.wheel, vehicle.wheel_count, wheel_block, 1, LD_MAX_WHEELS),
      .required = true, .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY,
      .initial_doc = WITHOUT_WHEELS, .doc = "masses on suspensions and tyres, all alike"},
     {"drive", SAME_STRUCT(drive_block), .required = true, .forms = VEHICLE | MULTIBODY,

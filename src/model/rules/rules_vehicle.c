@@ -115,7 +115,11 @@ static void wheel_rules(const rule_set *rules)
                               "\"%s\" is already the name of wheel %d", vehicle->wheel[i].name,
                               k + 1);
     }
-    if (vehicle->wheel_count >= 3 && on_one_line(vehicle))
+    bool alone = model_has_vehicle(rules->model); // nothing else holds the chassis upright
+    if (alone && vehicle->wheel_count > 0 && vehicle->wheel_count < 3)
+        report_broken(rules, "base.wheels", 0, "found %d, expected at least 3 under a vehicle",
+                      vehicle->wheel_count);
+    if (alone && vehicle->wheel_count >= 3 && on_one_line(vehicle))
         report_broken(rules, "base.wheels", 0,
                       "they are on one line, seen from above: the vehicle would tip over");
     if (vehicle->speed > 0 && driven == 0)

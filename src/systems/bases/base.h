@@ -178,6 +178,10 @@ typedef struct base_dynamics {
                             ld_error *error);
     // Says that there is none, with the smallest residual found [m/s2].
     ld_status (*report_no_rest)(double smallest, ld_error *error);
+    // Fails where nothing holds a part of it; what is to be said of the equilibrium, empty:
+    // nothing. NULL: nothing is.
+    ld_status (*check_held)(const base_system *self, ld_error *error);
+    void (*note_rest)(const base_system *self, char *text, size_t size);
 
     // Linearised: small displacements; where in the state their speeds are, and what has a rate
     // alone. What moves: a group's number and the inertia [kg, kg m2] of a displacement.

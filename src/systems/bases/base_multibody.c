@@ -147,6 +147,9 @@ static ld_status begin(base_system *base, double *state, ld_error *error)
         if (status)
             return status;
         mechanism_complete(mechanism, &carrier, state);
+        status = mechanism_check_struts(mechanism, &carrier, state, error);
+        if (status)
+            return status;
     }
     return LD_OK;
 }
@@ -497,6 +500,34 @@ static ld_status check_rest(const base_system *self, const base_found *found, co
     return own->has_wheels ? check_wheels(self, found, state, error) : LD_OK;
 }
 
+static ld_status check_held(const base_system *self, ld_error *error)
+{
+    const multibody_base *own = self->own;
+    const mechanism_system *mechanism = mechanism_of(self);
+    if (own->falling < 0)
+        return LD_OK;
+    mechanism_axis axis = mechanism_axis_of(mechanism, own->falling);
+    return ld_fail(
+        error, LD_ERR_INPUT,
+        "base.joints.%s: no static equilibrium: nothing holds \"%s\", which would start "
+        "with %.3g %s; add a spring, a lock or a drive, or use \"run.start: undeformed\"",
+        axis.joint->name, axis.joint->body, own->falls_with, axis.turns ? "rad/s2" : "m/s2");
+}
+
+static void note_rest(const base_system *self, char *text, size_t size)
+{
+    const multibody_base *own = self->own;
+    const mechanism_moved *moved = &own->moved;
+    const double degree = 0.017453292519943295;
+    text[0] = 0;
+    if (moved->joint)
+        snprintf(text, size,
+                 "joint %s: its equilibrium, in which the run starts, is %.3g %s from where the "
+                 "scenario places \"%s\"",
+                 moved->joint->name, moved->turns ? moved->by / degree : moved->by,
+                 moved->turns ? "deg" : "m", moved->joint->body);
+}
+
 // ---- linearised
 
 // Displacements: those in the sense of the independent speeds, then wheel positions.
@@ -606,6 +637,8 @@ static const base_dynamics dynamics = {
     .residual = residual,
     .check_rest = check_rest,
     .report_no_rest = report_no_rest,
+    .check_held = check_held,
+    .note_rest = note_rest,
     .displace_slightly = displace_slightly,
     .speed_of = speed_of,
     .quicken = quicken,

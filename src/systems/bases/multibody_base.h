@@ -7,6 +7,13 @@
 #include "systems/bases/prescribed_motion.h"
 #include "systems/mechanism/mechanism.h"
 
+// The joint that is far from its start in equilibrium; NULL: none.
+typedef struct mechanism_moved {
+    const ld_joint *joint;
+    bool turns;
+    double by; // [rad], [m]
+} mechanism_moved;
+
 typedef struct multibody_base {
     const ld_model *model;
     mechanism_system of_tube[LD_MAX_FIRINGS]; // while that tube launches, in the order of firing
@@ -22,6 +29,9 @@ typedef struct multibody_base {
     double *rest;
     int freedom_count; // displacements that are unknown there
     int freedom[MECHANISM_MOST_SPEEDS];
+    int falling;       // speed along which nothing holds it; -1: none
+    double falls_with; // [m/s2], [rad/s2]
+    mechanism_moved moved;
     char holder[MECHANISM_MOST_HOLDS][2 * LD_MAX_NAME]; // keys of what holds a joint
 } multibody_base;
 

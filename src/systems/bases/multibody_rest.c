@@ -250,6 +250,70 @@ static ld_status find_held(const rest_problem *the, const double *state, const d
     return status;
 }
 
+// ---- what falls, what moved
+
+// The unknown that accelerates most along directions that nothing holds.
+static void find_falling(const rest_problem *the, double *state, const bool *held)
+{
+    multibody_base *own = the->base->own;
+    double a[MECHANISM_MOST_SPEEDS + 3 * LD_MAX_WHEELS];
+    double least = 1e-3 * (1 + own->model->gravity);
+    own->falling = -1;
+    if (accelerations(the, state, a))
+        return;
+    for (int i = 0; i < the->wheels_from; i++)
+        if (held[i] && fabs(a[i]) > least) {
+            least = own->falls_with = fabs(a[i]);
+            own->falling = the->mechanism->freedom[the->unknown[i]];
+        }
+}
+
+static double turn_between(const double *a, const double *b)
+{
+    double cosine = fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]);
+    return 2 * acos(fmin(cosine, 1));
+}
+
+// How far a joint of the tree stands from its start, over what is sag at most; how far it turned
+// [rad] or slid [m].
+static double measure_moved(const ld_joint *joint, const double *start, const double *q,
+                            mechanism_moved *moved)
+{
+    const double most_turn = 0.2, most_slide = 0.5; // [rad], [m]
+    int slides = joint->kind == LD_JOINT_PRISMATIC ? 1 : joint->kind == LD_JOINT_FREE ? 3 : 0;
+    double slid = 0, turned = 0;
+    for (int k = 0; k < slides; k++)
+        slid = hypot(slid, q[k] - start[k]);
+    if (joint->kind == LD_JOINT_REVOLUTE)
+        turned = fabs(q[0] - start[0]);
+    if (joint->kind == LD_JOINT_SPHERICAL || joint->kind == LD_JOINT_FREE)
+        turned = turn_between(q + slides, start + slides);
+    moved->turns = turned / most_turn > slid / most_slide;
+    moved->by = moved->turns ? turned : slid;
+    return moved->by / (moved->turns ? most_turn : most_slide);
+}
+
+// The joint of the tree that stands farthest from its start.
+static void find_moved(const rest_problem *the, const double *start, const double *state)
+{
+    multibody_base *own = the->base->own;
+    const mechanism_system *mechanism = the->mechanism;
+    double most = 1;
+    own->moved.joint = NULL;
+    for (int i = 0; i < mechanism->given->joint_count; i++) {
+        int element = mechanism->joint_element[i];
+        mechanism_moved moved = {.joint = &mechanism->given->joint[i]};
+        if (element < 0)
+            continue;
+        int q = ld_mstmm_coordinate_offset(mechanism->chain, element);
+        double far = measure_moved(moved.joint, start + q, state + q, &moved);
+        if (far > most) {
+            most = far;
+            own->moved = moved;
+        }
+    }
+}
+
 // ---- all
 
 // Place and heading of a body on wheels: nothing holds them.
@@ -306,10 +370,14 @@ ld_status multibody_rest_find(base_system *base, ld_error *error)
     if (!J)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's rest");
     bool held[MECHANISM_MOST_SPEEDS + 3 * LD_MAX_WHEELS] = {0};
+    double start[BASE_MOST_STATES];
     ld_status status = LD_OK;
+    memcpy(start, own->rest, (size_t)base->state_count * sizeof *start);
     relax(&the, J, J + square, own->rest);
+    find_moved(&the, start, own->rest);
     if (the.count && !jacobian(&the, own->rest, J))
         status = find_held(&the, own->rest, J, J + square, held, error);
+    find_falling(&the, own->rest, held);
     free(J);
     own->freedom_count = 0;
     for (int i = 0; i < the.wheels_from; i++)

@@ -1,9 +1,11 @@
 #include "systems/mechanism/mechanism_loops.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "math/functions.h"
+#include "model/model.h"
 #include "systems/mechanism/mechanism_motion.h"
 #include "systems/mechanism/mechanism_state.h"
 
@@ -24,20 +26,40 @@ static void scatter(const mechanism_system *self, const chain_state *chain, doub
     memcpy(state + self->q_count, chain->u, (size_t)self->u_count * sizeof *state);
 }
 
+// Says it of the scenario's joint.
+static ld_status report_open(const mechanism_system *self, const ld_error *found, ld_error *error)
+{
+    char name[LD_MAX_NAME];
+    double gap, turn;
+    int joint = -1;
+    if (sscanf(found->text, "loop '%63[^']' cannot be closed: %lg m and %lg rad", name, &gap,
+               &turn) == 3)
+        joint = mechanism_joint(self->given, name);
+    if (joint < 0)
+        return ld_fail(error, found->status, "base.joints: the loops cannot be closed: %s",
+                       found->text);
+    return ld_fail(error, LD_ERR_INPUT,
+                   "base.joints.%s: the loop of \"%s\" and \"%s\" cannot be closed: %.3g m and "
+                   "%.3g rad are left; check positions and where joints start",
+                   name, self->given->joint[joint].parent, self->given->joint[joint].body, gap,
+                   turn);
+}
+
 ld_status mechanism_assemble(const mechanism_system *self, const base_frame *carrier, double *state,
                              ld_error *error)
 {
     int kept[MECHANISM_MOST_ELEMENTS] = {0};
     chain_state chain;
+    ld_error found;
     if (ld_mstmm_loop_count(self->chain) == 0)
         return LD_OK;
     for (int i = 0; i < self->hold_count; i++)
         if (self->hold[i].joint >= 0)
             kept[self->joint_element[self->hold[i].joint]] = 1;
     gather(self, carrier, state, &chain);
-    ld_status status = ld_mstmm_assemble(self->chain, chain.q, chain.u, kept, NULL, error);
+    ld_status status = ld_mstmm_assemble(self->chain, chain.q, chain.u, kept, NULL, &found);
     scatter(self, &chain, state);
-    return status;
+    return status ? report_open(self, &found, error) : LD_OK;
 }
 
 void mechanism_project(const mechanism_system *self, const base_frame *carrier, double *state)
@@ -121,6 +143,24 @@ static int ascending(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
+// Loops that leave no freedom are refused where they hold more than there is.
+static ld_status check_rigid(const mechanism_system *self, ld_error *error)
+{
+    for (int i = self->given->joint_count - 1; i >= 0; i--) {
+        const ld_joint *joint = &self->given->joint[i];
+        int implied = self->joint_loop[i] < 0
+                          ? 0
+                          : ld_mstmm_loop_redundancy(self->chain, self->joint_loop[i]);
+        if (implied > 0)
+            return ld_fail(error, LD_ERR_INPUT,
+                           "base.joints.%s: more constraints than degrees of freedom: nothing can "
+                           "move, and others imply %d constraints of this joint; remove it, or use "
+                           "a kind that holds less",
+                           joint->name, implied);
+    }
+    return LD_OK;
+}
+
 ld_status mechanism_find_freedoms(mechanism_system *self, const base_frame *carrier,
                                   const double *state, ld_error *error)
 {
@@ -148,6 +188,8 @@ ld_status mechanism_find_freedoms(mechanism_system *self, const base_frame *carr
         self->freedom[self->freedom_count++] = column;
         eliminate(rows, n, i, at, column, basis);
     }
+    if (!status && self->freedom_count == 0)
+        status = check_rigid(self, error);
     qsort(self->freedom, (size_t)self->freedom_count, sizeof *self->freedom, ascending);
     free(basis);
     return status;

@@ -65,6 +65,39 @@ void mechanism_complete(mechanism_system *self, const base_frame *carrier, const
         self->anchor[i] = mechanism_point_motion(&motion, &self->foot[i]).r;
 }
 
+ld_status mechanism_check_struts(const mechanism_system *self, const base_frame *carrier,
+                                 const double *state, ld_error *error)
+{
+    mechanism_motion motion;
+    mechanism_move(self, 0, carrier, state, &motion);
+    for (int i = 0; i < self->given->strut_count; i++) {
+        const ld_strut *strut = &self->given->strut[i];
+        strut_line line;
+        mechanism_strut_line(&motion, &self->strut[i], &line);
+        if (!(line.length > 1e-6))
+            return ld_fail(error, LD_ERR_INPUT,
+                           "base.struts.%s: its ends on \"%s\" and \"%s\" coincide at the start; "
+                           "expected a distance along which it acts",
+                           strut->name, strut->from, strut->to);
+    }
+    return LD_OK;
+}
+
+mechanism_axis mechanism_axis_of(const mechanism_system *self, int speed)
+{
+    int i = 0, element = 0;
+    while (element + 1 < self->element_count && self->chain->element_u[element + 1] <= speed)
+        element++;
+    while (i + 1 < self->given->joint_count && self->joint_element[i] != element)
+        i++;
+    static const int slides[] = {[LD_JOINT_PRISMATIC] = 1,
+                                 [LD_JOINT_CYLINDRICAL] = 1,
+                                 [LD_JOINT_PLANAR] = 2,
+                                 [LD_JOINT_FREE] = 3};
+    const ld_joint *joint = &self->given->joint[i];
+    return (mechanism_axis){joint, speed - self->chain->element_u[element] >= slides[joint->kind]};
+}
+
 void mechanism_plant(const mechanism_system *self, const base_frame *carrier, double *state)
 {
     mechanism_motion motion;

@@ -12,6 +12,17 @@ void mechanism_start(const mechanism_system *self, double *state);
 // lengths of unloaded struts without one, where the feet are set down.
 void mechanism_complete(mechanism_system *self, const base_frame *carrier, const double *state);
 
+// LD_ERR_INPUT with the name of a strut whose ends coincide in a state.
+ld_status mechanism_check_struts(const mechanism_system *self, const base_frame *carrier,
+                                 const double *state, ld_error *error);
+
+// The joint of the tree that a speed belongs to, and whether it turns.
+typedef struct mechanism_axis {
+    const ld_joint *joint;
+    bool turns;
+} mechanism_axis;
+mechanism_axis mechanism_axis_of(const mechanism_system *self, int speed);
+
 // Sets the ground's deflections under the feet by how far each has moved since it was set down.
 void mechanism_plant(const mechanism_system *self, const base_frame *carrier, double *state);
 
