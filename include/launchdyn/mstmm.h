@@ -56,7 +56,7 @@ typedef enum ld_hinge {
 } ld_hinge;
 
 /// A flexible tube or beam of round sections (equal second moments in both planes) along its body
-/// frame's x axis: Euler-Bernoulli bending, torsion and stretch as small vibrations in a frame that
+/// frame's x axis: bending, torsion and stretch as small vibrations in a frame that
 /// rides on its input end, by component modes.
 typedef struct ld_mstmm_beam {
     double length; ///< [m]
@@ -68,7 +68,9 @@ typedef struct ld_mstmm_beam {
     ld_mode_span span;           ///< LD_SPAN_FREE_FREE, or clamped shapes
     int geometric_stiffness;     ///< other than 0: axial forces stiffen or soften bending
     int reserved_number;         ///< 0
-    const void *reserved[3];     ///< NULL: room for what later versions may be asked
+    double shear_coefficient;    ///< [-] k of k G A of round sections, with rotary inertia; G A is
+                                 ///< torsion stiffness times mass over polar inertia. 0: neither
+    const void *reserved[2];     ///< NULL: room for what later versions may be asked
 } ld_mstmm_beam;
 
 /// One body and the hinge that carries it. All not mentioned may be zero.

@@ -443,6 +443,7 @@ static void test_conservation(void **state)
     soft.axial_stiffness = 2e5;
     beam.section = &soft;
     beam.torsion = beam.axial = 1;
+    beam.shear_coefficient = 0.6;
     const ld_mstmm_element e[2] = {{.name = "beam", .hinge = LD_HINGE_FREE, .beam = &beam},
                                    {.name = "body",
                                     .parent = "beam",

@@ -25,6 +25,10 @@ static ld_status check(const ld_mstmm_beam *given, const char *name, ld_error *e
             "element '%s': a beam has at most %d bending modes a plane, %d torsional and "
             "%d axial ones",
             name, LD_NB, LD_NT, LD_NA);
+    if (!(given->shear_coefficient >= 0 && given->shear_coefficient <= 1))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "element '%s': shear coefficient %g, expected 0 (none) to 1", name,
+                       given->shear_coefficient);
     for (int i = 0; i < given->section_count; i++) {
         const ld_section *s = &given->section[i];
         if (!(s->mass_per_length > 0) || !(section_stiffness_y(s) > 0) ||
@@ -64,7 +68,8 @@ ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, 
                    .axial = given->axial,
                    .elements = given->elements ? given->elements : DEFAULT_ELEMENTS,
                    .span = given->span == LD_SPAN_FREE_FREE ? LD_SPAN_FREE_FREE : LD_SPAN_CLAMPED,
-                   .damping = given->damping};
+                   .damping = given->damping,
+                   .shear_coefficient = given->shear_coefficient};
     ld_error reason = {0};
     status = flexible_tube_build(&self->tube, model, &reason);
     if (!status && given->geometric_stiffness)

@@ -128,6 +128,44 @@ static void element_mass(int width, double m, double h, double out[4][4])
             out[i][j] = k * scale[i] * scale[j] * f[i][j];
 }
 
+// Of a beam with shear, between nodal values and turns of the sections: powers of xi of the axis,
+// and its shear strain, which is constant.
+static double sheared_polynomial(const double left[2], const double right[2], double h,
+                                 double shear, double coefficient[4])
+{
+    double rise = (right[0] - left[0]) / h, bent = rise - 0.5 * (left[1] + right[1]);
+    double strain = bent * shear / (1 + shear), turn_2 = -6 * bent / (h * h * (1 + shear));
+    coefficient[0] = left[0];
+    coefficient[1] = left[1] + strain;
+    coefficient[2] = 0.5 * ((right[1] - left[1]) / h - turn_2 * h);
+    coefficient[3] = turn_2 / 3;
+    return strain;
+}
+
+// Consistent mass with its shapes and rotary inertia: Gauss's rule with four points, exact.
+static void sheared_mass(double m, double rotary, double h, double shear, double out[4][4])
+{
+    static const double at[4] = {-0.86113631159405257522, -0.33998104358485626480,
+                                 0.33998104358485626480, 0.86113631159405257522};
+    static const double weight[4] = {0.34785484513745385737, 0.65214515486254614263,
+                                     0.65214515486254614263, 0.34785484513745385737};
+    memset(out, 0, 4 * sizeof *out);
+    for (int p = 0; p < 4; p++) {
+        double xi = 0.5 * h * (1 + at[p]), value[4], turn[4];
+        for (int k = 0; k < 4; k++) {
+            double c[4], end[4] = {0};
+            end[k] = 1;
+            double strain = sheared_polynomial(end, end + 2, h, shear, c);
+            value[k] = c[0] + xi * (c[1] + xi * (c[2] + xi * c[3]));
+            turn[k] = c[1] + xi * (2 * c[2] + xi * 3 * c[3]) - strain;
+        }
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++)
+                out[i][j] +=
+                    0.5 * weight[p] * (m * value[i] * value[j] + rotary * turn[i] * turn[j]);
+    }
+}
+
 // Mass of the whole line [N][N], N = n + width: the node at x = 0 included.
 static void assemble_mass(const tube_line *line, const ld_tubes *model, double *M)
 {
@@ -136,9 +174,12 @@ static void assemble_mass(const tube_line *line, const ld_tubes *model, double *
     for (int e = 0; e < mesh->elements; e++) {
         const ld_section *section = &model->section[mesh->section[e]];
         double h = mesh->node[e + 1] - mesh->node[e], m[4][4];
-        element_mass(
-            w, h * (line->kind == LINE_TORSION ? section->polar_inertia : section->mass_per_length),
-            h, m);
+        double of_element =
+            h * (line->kind == LINE_TORSION ? section->polar_inertia : section->mass_per_length);
+        if (line->shear)
+            sheared_mass(of_element, line->rotary[e], h, line->shear[e], m);
+        else
+            element_mass(w, of_element, h, m);
         for (int i = 0; i < 2 * w; i++)
             for (int j = 0; j < 2 * w; j++)
                 M[(w * e + i) * N + w * e + j] += m[i][j];
@@ -168,12 +209,35 @@ static double stiffness_of(const tube_line *line, const ld_section *section)
     }
 }
 
+// Shear numbers and rotary inertias of the elements: of round sections G A = G I_t A/I_p, and
+// A/I_p is the mass over the polar inertia; a plane has its part of the latter.
+static void fill_shear(tube_line *line, const ld_tubes *model)
+{
+    for (int e = 0; e < line->mesh->elements; e++) {
+        const ld_section *s = &model->section[line->mesh->section[e]];
+        double h = line->mesh->node[e + 1] - line->mesh->node[e], EI = stiffness_of(line, s);
+        double GA = s->torsion_stiffness * s->mass_per_length / s->polar_inertia;
+        double both = section_stiffness_y(s) + section_stiffness_z(s);
+        line->shear[e] = 12 * EI / (model->modes.shear_coefficient * GA * h * h);
+        line->rotary[e] = h * s->polar_inertia * EI / both;
+    }
+}
+
 // What unit elastic energy (f^T K f = 1) bends, twists or stretches an element by, its curvature or
 // strain constant.
 static double element_deformation(const tube_line *line, const ld_tubes *model, int e)
 {
     double h = line->mesh->node[e + 1] - line->mesh->node[e];
     return sqrt(h / stiffness_of(line, &model->section[line->mesh->section[e]]));
+}
+
+// And how far its linear curvature, with the shear strain that this causes, shifts what lies
+// beyond.
+static double element_shift(const tube_line *line, const ld_tubes *model, int e)
+{
+    double h = line->mesh->node[e + 1] - line->mesh->node[e];
+    double shift = element_deformation(line, model, e) * h / sqrt(12);
+    return line->shear ? shift * sqrt(1 + line->shear[e]) : shift;
 }
 
 // Nodal vectors of the clamped line with one element deformed, the others rigid: with constant
@@ -185,13 +249,14 @@ static void fill_shapes(const tube_line *line, const ld_tubes *model)
     const double *node = line->mesh->node;
     for (int e = 0; e < line->mesh->elements; e++) {
         double d = element_deformation(line, model, e), h = node[e + 1] - node[e];
+        double shift = element_shift(line, model, e);
         double *first = &line->shape[(size_t)(w * e) * (size_t)n], *second = first + n;
         for (int i = e + 1; i <= line->mesh->elements; i++) {
             int at = w * (i - 1);
             first[at] = w == 1 ? d : d * (node[i] - node[e + 1] + 0.5 * h);
             if (w == 2) {
                 first[at + 1] = d;
-                second[at] = -d * h / sqrt(12);
+                second[at] = -shift;
             }
         }
     }
@@ -214,7 +279,7 @@ static void times_shapes(const tube_line *line, const ld_tubes *model, const dou
         }
         couple += forces[2 * e + 1];
         out[2 * e] = d * (couple + 0.5 * h * force);
-        out[2 * e + 1] = -d * h / sqrt(12) * force;
+        out[2 * e + 1] = -element_shift(line, model, e) * force;
         couple += h * force;
     }
 }
@@ -273,7 +338,8 @@ ld_status tube_line_build(tube_line *line, line_kind kind, int plane, const tube
 {
     int w = kind == LINE_BENDING ? 2 : 1, n = w * mesh->elements, N = n + w;
     size_t nn = (size_t)n * (size_t)n, NN = (size_t)N * (size_t)N;
-    double *block = calloc(2 * nn + 2 * (size_t)n, sizeof(double));
+    bool sheared = kind == LINE_BENDING && model->modes.shear_coefficient > 0;
+    double *block = calloc(2 * nn + 3 * (size_t)n, sizeof(double));
     double *M = calloc(NN + (size_t)n, sizeof(double)), trace = 0;
     if (!block || !M) {
         free(block);
@@ -285,6 +351,11 @@ ld_status tube_line_build(tube_line *line, line_kind kind, int plane, const tube
     line->mass = block + nn;
     line->moment[0] = line->mass + nn;
     line->moment[1] = line->moment[0] + n;
+    if (sheared) {
+        line->shear = line->moment[1] + n;
+        line->rotary = line->shear + mesh->elements;
+        fill_shear(line, model);
+    }
 
     assemble_mass(line, model, M);
     take_moments(line, M);
@@ -318,11 +389,24 @@ void tube_line_polynomial(const tube_line *line, const double *nodal, int elemen
     const double *left = element > 0 ? &nodal[w * (element - 1)] : zero,
                  *right = &nodal[w * element];
     double h = line->mesh->node[element + 1] - line->mesh->node[element];
+    if (line->shear) {
+        sheared_polynomial(left, right, h, line->shear[element], coefficient);
+        return;
+    }
     double rise = (right[0] - left[0]) / h;
     coefficient[0] = left[0];
     coefficient[1] = w == 2 ? left[1] : rise;
     coefficient[2] = w == 2 ? (3 * rise - 2 * left[1] - right[1]) / h : 0;
     coefficient[3] = w == 2 ? (left[1] + right[1] - 2 * rise) / (h * h) : 0;
+}
+
+double tube_line_strain(const tube_line *line, const double *nodal, int element)
+{
+    static const double zero[2];
+    const double *left = element > 0 ? &nodal[2 * (element - 1)] : zero,
+                 *right = &nodal[2 * element];
+    double h = line->mesh->node[element + 1] - line->mesh->node[element], unused[4];
+    return sheared_polynomial(left, right, h, line->shear[element], unused);
 }
 
 double tube_line_value(const tube_line *line, const double *nodal, double x)

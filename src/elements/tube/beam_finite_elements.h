@@ -1,7 +1,8 @@
 // Finite elements of the bare tube: a mesh along x, and on it three kinds of line (bending in one
 // plane, torsion, stretch), each with its consistent mass.
 //
-// Bending: Euler-Bernoulli beam, cubic Hermite shapes, nodal degrees of freedom (value, slope).
+// Bending: Euler-Bernoulli beam, cubic Hermite shapes, nodal degrees of freedom (value, slope);
+// with a shear coefficient Timoshenko's beam, (value, turn of the section), exact static shapes.
 // Torsion and stretch: bar, linear shapes, nodal value. The stiffness is never assembled: a tube
 // clamped at one end is statically determinate, so the elements' own deformations (their natural
 // modes; Argyris 1964) are coordinates, one by one, in which the elastic stiffness is diagonal.
@@ -38,7 +39,9 @@ typedef struct tube_line {
     double low;    // [1/s2] below the lowest clamped omega^2, and close to it: 1 / trace of mass
     double *moment[2];  // [n] nodal vectors M 1 and M x: their products with a shape f are the
                         // integrals of f and x f over mass (torsion: over polar inertia)
-    double rigid[2][2]; // integrals of 1, x; x, x^2 over the same
+    double rigid[2][2]; // integrals of 1, x; x, x^2 over the same, rotary inertia included
+    double *shear;      // [elements] 12 E I/(k G A h^2); NULL: rigid in shear
+    double *rotary;     // [elements] [kg m2] rho I h of the plane, where there is shear
 } tube_line;
 
 // Lays the mesh: model->modes.elements elements, or as many as the stations ask for.
@@ -61,5 +64,7 @@ double tube_line_slope(const tube_line *line, const double *nodal, double x);
 // Coefficients of xi^k, xi = x - x0, of the shape with nodal vector `nodal` [n] in an element.
 void tube_line_polynomial(const tube_line *line, const double *nodal, int element,
                           double coefficient[4]);
+// Shear strain of that shape in the element: slope of the axis less turn of the section.
+double tube_line_strain(const tube_line *line, const double *nodal, int element);
 
 #endif

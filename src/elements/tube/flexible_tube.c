@@ -108,6 +108,26 @@ static void fill_frequencies(const line_shapes *shapes, double share, double zet
     }
 }
 
+// Shear strains of a plane's shapes; its rotary inertia, which the line's moments have too.
+static void fill_shear(flexible_tube *tube, int plane, const tube_line *line,
+                       const line_shapes *shapes)
+{
+    tube_shear *shear = tube->shear;
+    for (int e = 0; e < tube->element_count; e++) {
+        double h = tube->element[e].x1 - tube->element[e].x0;
+        shear->inertia[plane] += line->rotary[e];
+        for (int k = 0; k < shapes->count; k++) {
+            const double *nodal = &shapes->nodal[k * line->n], *right = nodal + 2 * e;
+            double rise = (right[0] - (e > 0 ? right[-2] : 0)) / h;
+            double strain = tube_line_strain(line, nodal, e);
+            shear->strain[e][plane][k] = strain;
+            shear->turn[plane][k] += line->rotary[e] * (rise - strain);
+        }
+    }
+    for (int k = 0; k < shapes->count; k++)
+        tube->c[plane][k] -= shear->turn[plane][k];
+}
+
 // Shapes of a plane, and what comes of them.
 static void fill_plane(flexible_tube *tube, int plane, const tube_lines *of, const ld_tubes *model)
 {
@@ -118,6 +138,8 @@ static void fill_plane(flexible_tube *tube, int plane, const tube_lines *of, con
     double *ct = tube->ct[plane], *c = tube->c[plane];
     fill_elements(tube, plane, &of->line[i], shapes);
     fill_integrals(&of->line[i], shapes, ct, c);
+    if (tube->shear)
+        fill_shear(tube, plane, &of->line[i], shapes);
     fill_frequencies(shapes, share, model->modes.damping, tube->om2_b[plane], tube->dmp_b[plane]);
     tube->ctct[plane] = dot(tube->nb, ct, ct);
     tube->ctc[plane] = dot(tube->nb, ct, c);
@@ -223,6 +245,17 @@ static ld_status check_model(const ld_tubes *model, ld_error *error)
     return LD_OK;
 }
 
+static ld_status allocate_shear(flexible_tube *tube, ld_error *error)
+{
+    tube->shear = calloc(1, sizeof *tube->shear);
+    if (tube->shear)
+        tube->shear->strain = calloc((size_t)tube->element_count, sizeof *tube->shear->strain);
+    if (!tube->shear || !tube->shear->strain)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the shear of %d elements",
+                       tube->element_count);
+    return LD_OK;
+}
+
 static ld_status allocate(flexible_tube *tube, const tube_lines *of, ld_error *error)
 {
     const tube_mesh *mesh = &of->mesh;
@@ -264,7 +297,7 @@ static void fill_tube(flexible_tube *tube, const tube_lines *of, const ld_tubes 
     tube->cpcp = dot(tube->nt, tube->cp, tube->cp);
     tube->m = bending->rigid[0][0];
     tube->s0 = bending->rigid[0][1];
-    tube->j0 = bending->rigid[1][1];
+    tube->j0 = bending->rigid[1][1] - (tube->shear ? tube->shear->inertia[PLANE_Y] : 0);
     for (int e = 0; e < of->mesh.elements; e++)
         tube->j += model->section[of->mesh.section[e]].polar_inertia *
                    (of->mesh.node[e + 1] - of->mesh.node[e]);
@@ -295,6 +328,8 @@ ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_err
         status = build_lines(&of, model, error);
     if (!status)
         status = allocate(tube, &of, error);
+    if (!status && modes->shear_coefficient > 0)
+        status = allocate_shear(tube, error);
     if (!status)
         fill_tube(tube, &of, model);
     free_lines(&of);
@@ -305,6 +340,9 @@ void flexible_tube_free(flexible_tube *tube)
 {
     free(tube->element);
     free(tube->overlap);
+    if (tube->shear)
+        free(tube->shear->strain);
+    free(tube->shear);
     *tube = (flexible_tube){0};
 }
 

@@ -33,6 +33,13 @@ typedef struct tube_overlap {
     _Alignas(64) double G[2][LD_NB][LD_NB];
 } tube_overlap;
 
+// Of a beam with shear, whose sections turn by the slope of the axis less a strain.
+typedef struct tube_shear {
+    double inertia[2];          // [kg m2] by plane: int rho I dx
+    double turn[2][LD_NB];      // by plane: int rho I phi dx
+    double (*strain)[2][LD_NB]; // by element and plane, owned
+} tube_shear;
+
 typedef struct flexible_tube {
     int nb, nt, na;     // modes: bending per plane, torsion, axial
     int nbp, ntp, nap;  // the same, padded
@@ -55,6 +62,8 @@ typedef struct flexible_tube {
     tube_overlap *overlap; // 64-byte aligned, owned; NULL: the planes share their shapes, G = E
     struct tube_shortening *shortening; // of shortening_build; NULL: axis points move
                                         // across the axis alone
+    tube_shear *shear;                  // owned; NULL: sections stay across the axis, without
+                                        // rotary inertia across it
     int support_count;
     int support_element[LD_MAX_SUPPORTS]; // element that holds support k's station
 } flexible_tube;

@@ -114,6 +114,20 @@ static double trace(m3 m)
     return m.a[0][0] + m.a[1][1] + m.a[2][2];
 }
 
+// Rotary inertia of the sections about y and z of R, as they stand unbent.
+static void add_rotary_mass(const flexible_tube *tube, double *M)
+{
+    parts k = parts_of(tube);
+    int n = 6 + k.count;
+    const tube_shear *shear = tube->shear;
+    M[4 * n + 4] += shear->inertia[PLANE_Z];
+    M[5 * n + 5] += shear->inertia[PLANE_Y];
+    for (int i = 0; i < k.nb; i++) {
+        M[(6 + k.y + i) * n + 5] += shear->turn[PLANE_Y][i];
+        M[(6 + k.z + i) * n + 4] -= shear->turn[PLANE_Z][i];
+    }
+}
+
 // M: [m E, -~S, Ct; ~S, J, Cr; Ct^T, Cr^T, E]
 static void assemble_mass(const flexible_tube *tube, const integrals *value, double *M)
 {
@@ -155,6 +169,8 @@ static void assemble_mass(const flexible_tube *tube, const integrals *value, dou
         row[4] = value->stretch[2][i];
         row[5] = -value->stretch[1][i];
     }
+    if (tube->shear)
+        add_rotary_mass(tube, M);
     for (int i = 6; i < n; i++)
         M[i * n + i] = 1;
     for (int i = 0; i < n; i++)
@@ -229,6 +245,19 @@ static void add_shortening(const flexible_tube *tube, const integrals *value,
     }
 }
 
+// Gyroscopic moment of that rotary inertia.
+static void add_rotary_moment(const flexible_tube *tube, const tube_motion *motion, double *h)
+{
+    parts k = parts_of(tube);
+    const tube_shear *shear = tube->shear;
+    v3 w = motion->w;
+    double turning_y = dot(k.nb, shear->turn[PLANE_Y], motion->q_dot + k.y);
+    double turning_z = dot(k.nb, shear->turn[PLANE_Z], motion->q_dot + k.z);
+    v3 l = v3_make(0, shear->inertia[PLANE_Z] * w.y - turning_z,
+                   shear->inertia[PLANE_Y] * w.z + turning_y);
+    v3_store(h + 3, v3_sub(v3_from(h + 3), v3_cross(w, l)));
+}
+
 // Stiffness and damping of one plane.
 static void add_bending(const flexible_tube *tube, int plane, const double *q, const double *q_dot,
                         double *h)
@@ -277,6 +306,8 @@ static void assemble_forces(const flexible_tube *tube, const integrals *value,
     assemble_modal(&stretch, motion, h + 6 + k.a);
     if (tube->shortening)
         add_shortening(tube, value, motion, h);
+    if (tube->shear)
+        add_rotary_moment(tube, motion, h);
 
     // stiffness and damping
     add_bending(tube, PLANE_Y, q + k.y, q_dot + k.y, h + 6 + k.y);

@@ -92,7 +92,7 @@ static bool ties_alike(const ld_support *support, double share)
 bool tube_planes_alike(const ld_tubes *model)
 {
     double share = section_share(&model->section[0], PLANE_Y);
-    bool alike = true;
+    bool alike = !(model->modes.shear_coefficient > 0) || share == 1;
     for (int i = 1; i < model->section_count; i++)
         alike = alike && as_share(section_stiffness_z(&model->section[i]),
                                   section_stiffness_y(&model->section[i]), share);

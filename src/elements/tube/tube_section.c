@@ -29,6 +29,11 @@ static void shapes_at(const flexible_tube *tube, double x, v3 *Phi, v3 *Psi)
         Phi[z + i] = v3_make(0, 0, bending_at(e, PLANE_Z, i, xi));
         Psi[z + i] = v3_make(0, -slope_at(e, PLANE_Z, i, xi), 0);
     }
+    for (int i = 0; i < nb && tube->shear; i++) {
+        double(*strain)[LD_NB] = tube->shear->strain[e - tube->element];
+        Psi[i].z -= strain[PLANE_Y][i];
+        Psi[z + i].y += strain[PLANE_Z][i];
+    }
     for (int i = 0; i < tube->nt; i++) {
         Phi[t + i] = v3_zero();
         Psi[t + i] = v3_make(e->tau[0][i] + xi * e->tau[1][i], 0, 0);

@@ -33,6 +33,7 @@ typedef struct ld_modes {
     ld_mode_span span;
     double damping; ///< [-] ratio, of the clamped modes of the bare tube
     ld_geometric geometric_stiffness;
+    double shear_coefficient; ///< [-] k of k G A; 0: rigid in shear, without rotary inertia
 } ld_modes;
 
 typedef struct ld_tail {

@@ -59,6 +59,9 @@ static const field_row beam_mode_fields[] = {
     {"geometric_stiffness", CHOICE(ld_modes, geometric_stiffness, geometric_words),
      DEFAULT(LD_GEOMETRIC_YES),
      .doc = "geometric stiffness: axial forces stiffen or soften bending"},
+    {"shear_coefficient", NUMBER(ld_modes, shear_coefficient, ""), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "k of k G A of round sections, about 0.53 of thin tubes, 0.89 of rods; with rotary "
+            "inertia. 0: neither shear nor rotary inertia"},
     {0}};
 static const field_block beam_modes_block = {.fields = beam_mode_fields};
 static const field_row beam_fields[] = {

@@ -59,6 +59,7 @@ static void add_beam(element_list *list, const ld_beam *given, ld_mstmm_beam *be
                         .elements = given->modes.elements,
                         .damping = given->modes.damping,
                         .geometric_stiffness = given->modes.geometric_stiffness == LD_GEOMETRIC_YES,
+                        .shear_coefficient = given->modes.shear_coefficient,
                         .span = LD_SPAN_CLAMPED};
     list->element[list->count++] = (ld_mstmm_element){.name = given->name, .beam = beam};
 }
