@@ -110,7 +110,8 @@ LD_INLINE void find_error(double *block, int count)
 LD_INLINE void judge(double *block, real_condition last)
 {
     real size = OF_STEP(size), error = OF_STEP(error), h = OF_STEP(h);
-    real_condition goes = (size > 4e-16 * real_abs(OF_STEP(t0))) & (size > 0.0);
+    // two stops may be a rounding apart
+    real_condition goes = ((size > 4e-16 * real_abs(OF_STEP(t0))) | last) & (size > 0.0);
     real_condition done = (error <= 1.0) & goes, refused = real_not(done) & goes;
     // 0.9 error^-0.17, of a step that is done times before^0.04
     real log_error = real_log(real_max(real_min(error, real_all(1e40)), real_all(1e-40)));

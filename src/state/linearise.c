@@ -824,6 +824,21 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     return status;
 }
 
+// A motion without stiffness and damping, as of a parked vehicle along its road, has the eigenvalue
+// 0 twice; errors of the differences, relative to the largest rate's square, make a pair of it.
+static bool is_neutral(const pole_list *found, const ld_pole *pole)
+{
+    double most = 0, opposite = INFINITY;
+    for (int i = 0; i < found->count; i++) {
+        const ld_pole *of = &found->pole[i];
+        most = fmax(most, hypot(of->real, of->imaginary));
+        if (of->imaginary == 0)
+            opposite = fmin(opposite, fabs(of->real + pole->real));
+    }
+    return pole->imaginary == 0 && opposite < 1e-3 * pole->real &&
+           pole->real * pole->real < 1e-9 * most * most;
+}
+
 ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *growing,
                                      ld_error *error)
 {
@@ -845,7 +860,8 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
     // what grows by less than a thousandth of its rate is within the differences' error
     for (int i = 0; i < found.count; i++)
         if (found.pole[i].real >= LEAST_RATE &&
-            found.pole[i].real > fmax(growing->real, 1e-3 * found.pole[i].imaginary))
+            found.pole[i].real > fmax(growing->real, 1e-3 * found.pole[i].imaginary) &&
+            !is_neutral(&found, &found.pole[i]))
             *growing = found.pole[i];
     if (fed.feeder)
         status =

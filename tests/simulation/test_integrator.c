@@ -1,4 +1,5 @@
 // The integrator's adapter against closed forms: order, events, interpolation, repetition.
+#include "integration/dormand_prince.h"
 #include "integration/integrator.h"
 #include "support/check.h"
 
@@ -437,6 +438,39 @@ static void foreign_bytes_are_refused(void **state)
     integrator_free(stepper);
 }
 
+static void decay(const double *t, const double *y, double *y_dot, void *self)
+{
+    (void)t, (void)self;
+    for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
+        y_dot[i] = -y[i];
+}
+
+static void no_slopes(const double *t, const double *y, double *y_dot, void *self)
+{
+    (void)t, (void)y, (void)self;
+    for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
+        y_dot[i] = NAN;
+}
+
+// As of a gust and of a thrust curve whose corners are the same but for rounding.
+static void stops_a_rounding_apart(void **state)
+{
+    (void)state;
+    dormand_prince steps = {.f = decay, .count = 1};
+    double y[DORMAND_PRINCE_STATES] = {1}, first = nextafter(0.5, 0), end = 1;
+    steps.step.absolute[0] = 1e-10;
+    for (int i = 1; i < DORMAND_PRINCE_STATES; i++)
+        steps.step.absolute[i] = 1;
+    dormand_prince_start(&steps, 0, y);
+    const double stop[] = {first, 0.5, end};
+    for (int i = 0; i < 3; i++)
+        while (steps.step.t < stop[i])
+            assert_true(dormand_prince_step(&steps, stop[i]));
+    CHECK_NEAR("decay over two stops", steps.step.y[0], 0.36787944117144233, 3e-10);
+    steps.f = no_slopes;
+    assert_false(dormand_prince_step(&steps, nextafter(end, 2)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -449,6 +483,7 @@ int main(void)
         cmocka_unit_test(failing_equations_are_reported),
         cmocka_unit_test(saved_at_every_step),
         cmocka_unit_test(foreign_bytes_are_refused),
+        cmocka_unit_test(stops_a_rounding_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

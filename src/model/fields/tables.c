@@ -382,7 +382,7 @@ static const field_row wheel_fields[] = {
 static const field_block wheel_block = {.fields = wheel_fields};
 
 static const field_row drive_fields[] = {
-    {"kp", NUMBER(ld_base, vehicle.drive.kp, "N.s/m"), NOT_NEGATIVE, REQUIRED,
+    {"kp", NUMBER(ld_base, vehicle.drive.kp, "N.s/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "gain on the speed error"},
     {"ki", NUMBER(ld_base, vehicle.drive.ki, "N/m"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "gain on its integral"},
