@@ -157,8 +157,9 @@ static void one_adaptor_holds_no_next_rocket(void **state)
     run(&model, &ear, &out);
     printf("    %s\n", out.error.text);
     assert_int_equal(out.status, LD_ERR_LAUNCH);
-    assert_true(matches(out.error.text, "rocket.start_at: tube 2 has no static equilibrium at its "
-                                        "turn, t = # s: only the rear adaptor is in the tube"));
+    assert_true(matches(out.error.text,
+                        "rocket.start_at: tube 2 has no static equilibrium when it "
+                        "takes over, t = # s: only the rear adaptor is in the tube"));
     assert_true(isfinite(out.summary.rocket[0].t_rear));
     assert_true(ear.ascending && ear.last == out.summary.t_end);
 }

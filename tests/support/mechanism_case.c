@@ -550,6 +550,11 @@ static void isolate(ld_model *model)
 {
     ld_mechanism *given = &model->base.mechanism;
     model->gravity = 0;
+    for (int i = 0; i < given->load_count; i++) {
+        free(given->load[i].force.data);
+        free(given->load[i].moment.data);
+        given->load[i].force = given->load[i].moment = (ld_table){0};
+    }
     given->foot_count = given->load_count = given->drag_count = 0;
 }
 
