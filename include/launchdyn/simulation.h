@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "launchdyn/model.h"
 #include "launchdyn/results.h"
@@ -96,6 +97,10 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
 
 /// Columns of the history, in order.
 size_t ld_simulation_columns(const ld_simulation *simulation, const ld_column **columns);
+
+/// Describes in words what the bodies of a base of kind multibody are: a tree with its loops and
+/// degrees of freedom, in lines that begin with "# " as of ld_model_describe(). Nothing of others.
+void ld_simulation_describe(const ld_simulation *simulation, FILE *stream);
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

@@ -221,6 +221,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_simulation_tube_modes": (c_int, [_handle, POINTER(ld_mode), c_int]),
     "ld_simulation_system_modes": (c_int, [_handle, POINTER(ld_mode), c_int, POINTER(c_int),
                                            POINTER(ld_pole), c_int, POINTER(c_int), _error]),
+    "ld_simulation_describe": (None, [_handle, c_void_p]),
     "ld_simulation_columns": (c_size_t, [_handle, POINTER(POINTER(ld_column))]),
     # run.h
     "ld_run_begin": (c_int, [_handle, POINTER(ld_run_options), _handles, _error]),

@@ -15,7 +15,7 @@ import numpy as np
 from ._interrupt import Interrupt
 from ._library import (SHARE_TOLD, ld_base_frame, ld_base_wrench, ld_column, ld_error, ld_event,
                        ld_mode, ld_pole, ld_run_options, library)
-from ._memory import Array, Handle, Held, coded, coded_path, text_of
+from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of
 from ._progress import Progress, followed
 from .errors import InputError, Status, check, check_name, failure, tell_renamed
 from .result import Column, Columns, Quantity, Result, quantities_at
@@ -152,6 +152,11 @@ class Simulation:
     def columns(self) -> Columns:
         """Columns of the launch's history, in order."""
         return _columns(library.ld_simulation_columns, self.handle)
+
+    def describe(self) -> str:
+        """The bodies of a multibody base as a tree, its loops and degrees of freedom; of other
+        bases nothing."""
+        return printed(lambda to: library.ld_simulation_describe(self.handle.pointer, to))
 
     def run(self, out: Optional[PathLike] = None, csv: bool = False,
             progress: Progress = None, base: Optional[BaseFrame] = None) -> Result:

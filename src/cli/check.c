@@ -1,5 +1,6 @@
 // launchdyn check: what is wrong with a scenario, or what was understood.
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command.h"
@@ -22,7 +23,19 @@ typedef struct findings {
     ld_error error;
     bool refused; // its warnings are errors
     int point;    // of the sweep, at which it is wrong; 0: none
+    char *bodies; // of a multibody base, in words; NULL: not known
 } findings;
+
+// Of the scenario itself, in a sweep.
+static void describe_bodies(const ld_simulation *simulation, findings *found)
+{
+    size_t length = 0;
+    FILE *stream = found->bodies ? NULL : open_memstream(&found->bodies, &length);
+    if (!stream)
+        return;
+    ld_simulation_describe(simulation, stream);
+    fclose(stream);
+}
 
 // Whether a run can begin: all that it does before its first step. Where a base is that a program
 // reports is not known yet.
@@ -37,6 +50,8 @@ static void check_start(const ld_model *model, findings *found)
     if (!found->status && !told)
         found->status = ld_run_begin(simulation, NULL, &run, &found->error);
     ld_run_end(run, NULL, NULL);
+    if (!found->status)
+        describe_bodies(simulation, found);
     ld_simulation_free(simulation);
     if (found->status)
         ld_scenario_explain(model, &found->error, &found->errors);
@@ -117,6 +132,8 @@ static void print_text(const ld_model *model, const findings *found)
     if (found->status || command_is_quiet())
         return;
     ld_model_describe(model, stdout);
+    if (found->bodies)
+        fputs(found->bodies, stdout);
     ld_model_print(model, stdout);
 }
 
@@ -162,6 +179,7 @@ int command_check(const command *self, int argc, char **argv)
     code = command_code(found.status);
     ld_messages_free(&found.errors);
     ld_messages_free(&found.notes);
+    free(found.bodies);
     ld_model_free(model);
     options_end(&line);
     return code;

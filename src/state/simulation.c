@@ -1,5 +1,6 @@
 #include "state/simulation.h"
 
+#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,6 +36,17 @@ void ld_simulation_free(ld_simulation *self)
     if (self)
         simulation_clear(self);
     free(self);
+}
+
+void ld_simulation_describe(const ld_simulation *self, FILE *stream)
+{
+    const base_system *base = &self->launcher.base;
+    if (!base->kind || !base->kind->describe)
+        return;
+    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    base->kind->describe(base, stream);
+    uselocale(before);
+    freelocale(plain);
 }
 
 const motor *simulation_motor(const ld_simulation *self, int i)

@@ -2,6 +2,7 @@
 // ctest: slow
 #include "support/check.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/model.h"
@@ -156,12 +157,70 @@ static void far_from_its_start(void **state)
     }
 }
 
+// The bodies in words, as `launchdyn check` prints them. The ball is on the axis of pivot: mount
+// fixes its distance already.
+static void in_words(void **state)
+{
+    (void)state;
+    static const char expected[] =
+        "# bodies and the joints that carry them:\n"
+        "#   ground\n"
+        "#     frame: turns about a point at mount\n"
+        "#       cradle: turns about an axis at pivot, driven by lift, locked from 0.1 s; carries "
+        "the "
+        "tube\n"
+        "#   carrier\n"
+        "#     beam mast: slides along an axis at lift\n"
+        "#   loop: cradle turns about an axis on frame at again, 5 constraints, 5 redundant\n"
+        "#   loop: cradle turns about a point on ground at ball, 3 constraints, 1 redundant\n"
+        "# degrees of freedom: 3 (5 of the tree less 2 that loops take), and 5 modes of beams\n";
+    ld_model model = read_text(CRADLE MOUNT("ground") PIVOT(
+                                   ", lock: {from: 0.1 s, stiffness: 1e6 N.m/rad, damping: 1e4 "
+                                   "N.m.s/rad}") "    - {name: lift, kind: prismatic, parent: "
+                                                 "carrier, body: mast, at: 0 0 9 m,\n"
+                                                 "       slide_lock: none, stiffness: 1e6 N/m, "
+                                                 "damping: 1e4 N.s/m}\n"
+                                                 "    - {name: again, kind: revolute, parent: "
+                                                 "frame, body: cradle, at: 0.2 0.6 0 m,\n"
+                                                 "       axis: 0 0 1}\n"
+                                                 "    - {name: ball, kind: spherical, parent: "
+                                                 "ground, body: cradle, at: 0.2 0.9 0.5 m,\n"
+                                                 "       body_at: 0 0 0.5 m}\n"
+                                                 "  beams:\n"
+                                                 "    - {name: mast, length: 1 m, sections: "
+                                                 "[{from: 0 m, inner_radius: 70 mm, outer_radius: "
+                                                 "76 mm}],\n"
+                                                 "       material: {youngs_modulus: 210 GPa, "
+                                                 "poisson_ratio: 0.3, density: 7850 kg/m3},\n"
+                                                 "       modes: {bending: 2}}\n"
+                                                 "  drives:\n"
+                                                 "    - {name: lift, joint: pivot, angle: "
+                                                 "{command: 0 deg, kp: 1e6 N.m/rad, kd: 1e4 "
+                                                 "N.m.s/rad, torque_limit: 1e6 N.m}}\n" REST,
+                               NULL, 0);
+    ld_simulation *simulation;
+    ld_error error;
+    if (ld_simulation_create(&model, &simulation, &error))
+        fail_msg("%s", error.text);
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = open_memstream(&text, &length);
+    ld_simulation_describe(simulation, stream);
+    fclose(stream);
+    fputs(text, stdout);
+    assert_string_equal(text, expected);
+    free(text);
+    ld_simulation_free(simulation);
+    model_clear(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_hinge_closes_a_loop),
         cmocka_unit_test(on_a_moving_carrier),
         cmocka_unit_test(far_from_its_start),
+        cmocka_unit_test(in_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,8 @@
 #ifndef LD_SYSTEMS_BASE_H
 #define LD_SYSTEMS_BASE_H
 
+#include <stdio.h>
+
 #include "base/archive.h"
 #include "elements/exchange.h"
 #include "model/blocks/base.h"
@@ -243,6 +245,8 @@ struct base_interface {
     const quantity_table *quantities;
     void (*fill_instant)(const base_system *self, const base_found *found,
                          const base_output *output, const double *state, base_instant *instant);
+    // Describes in words what it is made of, in lines that begin with "# "; NULL: nothing is said.
+    void (*describe)(const base_system *self, FILE *stream);
     const base_dynamics *dynamics; // NULL: it has no motion of its own
     const quantity_table *inputs;  // which of the base_inputs it has; NULL: none
 };

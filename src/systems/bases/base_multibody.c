@@ -11,6 +11,7 @@
 #include "systems/bases/multibody_base.h"
 #include "systems/bases/multibody_rest.h"
 #include "systems/mechanism/mechanism_build.h"
+#include "systems/mechanism/mechanism_description.h"
 #include "systems/mechanism/mechanism_evaluation.h"
 #include "systems/mechanism/mechanism_joints.h"
 #include "systems/mechanism/mechanism_loops.h"
@@ -818,6 +819,11 @@ static void fill_instant(const base_system *base, const base_found *found,
     now->marching = report->marching;
 }
 
+static void describe(const base_system *base, FILE *stream)
+{
+    mechanism_describe(mechanism_of(base), stream);
+}
+
 const base_interface base_multibody = {
     .build = build,
     .free = release,
@@ -829,6 +835,7 @@ const base_interface base_multibody = {
     .sample = sample,
     .quantities = &quantities,
     .fill_instant = fill_instant,
+    .describe = describe,
     .dynamics = &dynamics,
     .inputs = &inputs,
 };
