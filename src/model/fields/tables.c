@@ -376,7 +376,9 @@ static const field_block road_block = {.fields = road_fields,
 static const field_row wheel_fields[] = {
     {"name", WORD(ld_wheel, name), .required = true, .doc = "name in results and paths"},
     {"mount", VECTOR(ld_wheel, mount, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
-     .doc = "wheel centre with unloaded suspension, in chassis axes from the chassis' mass centre"},
+     .doc =
+         "wheel centre with unloaded suspension, in chassis axes from the chassis' mass centre; in "
+         "axes of `base.wheels_on` from its origin"},
     {"mass", NUMBER(ld_wheel, mass, "kg"), POSITIVE, REQUIRED, .doc = "mass"},
     {0}};
 static const field_block wheel_block = {.fields = wheel_fields};
@@ -636,7 +638,7 @@ static const field_row layout_fields[] = {
     {"pitch", NUMBER(ld_layout, pitch, "m"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "distance between neighbours"},
     {"first", VECTOR(ld_layout, first, "m", 3), FROM_TO(-1000, 1000), DEFAULT(0),
-     .doc = "rear end of tube 1, platform axes (vehicles only)"},
+     .doc = "rear end of tube 1: platform axes (vehicle) or axes of `tubes.on` (multibody)"},
     {0}};
 static const field_block layout_block = {.fields = layout_fields};
 
