@@ -1,6 +1,6 @@
 // What a base without wheels is drawn as: a plate, a ship or an aircraft, with posts to the supports.
-// All of it in the axes of the base, whose origin is the launching tube's rear end; made up around
-// the launcher, from whose length its sizes follow.
+// All of it in the axes of the base, whose origin is the launching tube's rear end, or of the carrier of a multibody base;
+// made up around the launcher, from whose length its sizes follow.
 import { Group } from "three";
 import { edge, paint } from "./launcher.js";
 import { box, cylinder, loft, place, prism, Sleeve } from "./shapes.js";
@@ -14,12 +14,17 @@ const steps = (count) => Array.from({ length: count + 1 }, (_, i) => i / count);
 
 // What all of them have: posts between launcher and carrier, and how the eye sees it.
 class Carrier {
-  constructor(motion, scene) {
+  // `load`: what stands on it, where that is more than the tubes: its corners, level and feet in the carrier's axes, where it
+  // points, how high the carrier is at first, and the frame of the carrier at an instant.
+  constructor(motion, scene, load = null) {
     this.group = new Group();
     this.motion = motion;
+    this.load = load;
     const { length, slides, outer } = motion, low = motion.envelope.low[0] - (slides.length > 0 ? outer + 0.02 * length : 0);
-    this.feet = motion.supports.map((x) => this.foot(x, low));
-    if (slides.length > 0) this.cradle(low);
+    this.feet = load?.feet ?? motion.supports.map((x) => this.foot(x, low));
+    if (slides.length > 0 && !load) this.cradle(low);
+    this.height = load?.height ?? motion.value("base.y")[0];
+    this.aft = load ? load.forwards < -0.2 * length : motion.mount[0] < -0.2;
     this.seenFrom = [4.4, 2.8, 9.9];
     scene.add(this.group);
   }
@@ -38,11 +43,17 @@ class Carrier {
   }
   // Corners of the launcher in the base's axes.
   launcherCorners() {
+    if (this.load) return this.load.corners;
     const { envelope: { low, high }, length, mount } = this.motion, ends = [0, length];
     return ends.flatMap((x) => [low[0], high[0]].flatMap((y) => [low[1], high[1]].map((z) => apply(mount, [x, y, z]))));
   }
   // Posts from the feet down to a level; below a steep launcher a mast with an arm to each foot.
   stand(level) {
+    if (this.load) {
+      for (const [x, y, z] of this.feet)
+        if (y > level + 0.02 * this.motion.length) this.group.add(cylinder([x, level, z], [x, y, z], 0.018 * this.motion.length, paint.platform, edge));
+      return;
+    }
     const { length, mount, outer } = this.motion, radius = 0.018 * length;
     const post = (from, to, r) => this.group.add(cylinder(from, to, r, paint.platform, edge));
     if (mount[3] < 0.8) {
@@ -57,27 +68,32 @@ class Carrier {
   }
   // Level of what it stands on: below launcher and supports.
   level() {
-    return Math.min(0, ...this.launcherCorners().map(([, y]) => y)) - 0.12 * this.motion.length;
+    return this.load?.level ?? Math.min(0, ...this.launcherCorners().map(([, y]) => y)) - 0.12 * this.motion.length;
   }
   // What of it a picture of the whole has to show, from the anchor: `ends` in the axes of the base.
   corners(state, anchor) {
-    return this.ends.map((point) => subtract(add(state.base.r, apply(state.base.A, point)), anchor));
+    const { r, A } = this.frame(state);
+    return this.ends.map((point) => subtract(add(r, apply(A, point)), anchor));
+  }
+  frame(state) {
+    return this.load ? this.load.frame(state) : state.base;
   }
   show(state, anchor) {
-    place(this.group, [0, 1, 2].map((i) => state.base.r[i] - anchor[i]), state.base.A);
+    const { r, A } = this.frame(state);
+    place(this.group, subtract(r, anchor), A);
   }
 }
 
 class Plate extends Carrier {
-  constructor(motion, scene) {
-    super(motion, scene);
+  constructor(motion, scene, load) {
+    super(motion, scene, load);
     const level = this.level(), xs = this.feet.map(([x]) => x), zs = this.feet.map(([, , z]) => z);
     const margin = 0.16 * motion.length, thick = 0.04 * motion.length;
     const ends = (places) => [Math.min(...places) - margin, Math.max(...places) + margin], [x, z] = [ends(xs), ends(zs)];
     this.group.add(box([x[0], level - thick, z[0]], [x[1], level, z[1]], paint.vehicle, edge));
     this.stand(level);
     this.ends = cornersOf(x, [level - thick], z);
-    const foot = motion.value("base.y")[0] + level - thick;
+    const foot = this.height + level - thick;
     this.ground = foot > 0.3 ? 0 : foot - 0.01;
   }
 }
@@ -85,12 +101,13 @@ class Plate extends Carrier {
 // The launcher on the foredeck, or on the quarterdeck where it points aft; the sea where I's y is 0,
 // if the deck is above it.
 class Ship extends Carrier {
-  constructor(motion, scene) {
-    super(motion, scene);
-    const deck = this.level(), height = motion.value("base.y")[0] + deck;
+  constructor(motion, scene, load) {
+    super(motion, scene, load);
+    const deck = this.level(), height = this.height + deck, { aft } = this;
     const freeboard = height > 0.8 ? height : 0.5 * motion.length;
-    const length = Math.max(4.6 * freeboard, 7 * motion.length), aft = motion.mount[0] < -0.2;
-    Object.assign(this, { deck, freeboard, length, beam: 0.17 * length, stern: (aft ? -0.2 : -0.68) * length });
+    const length = Math.max(4.6 * freeboard, 7 * motion.length);
+    const xs = this.feet.map(([x]) => x), under = load ? 0.5 * (Math.min(...xs) + Math.max(...xs)) : 0;
+    Object.assign(this, { deck, freeboard, length, beam: 0.17 * length, stern: under + (aft ? -0.2 : -0.68) * length });
     this.ground = height - freeboard;
     this.sea = true;
     this.hull();
@@ -164,8 +181,8 @@ const WING = 7.5; // radii of the fuselage from its middle to a wing's tip
 
 // The launcher below the fuselage; on its back where it points up by more than 15 degrees.
 class Aircraft extends Carrier {
-  constructor(motion, scene) {
-    super(motion, scene);
+  constructor(motion, scene, load) {
+    super(motion, scene, load);
     const length = Math.max(3.8 * motion.length, 5), radius = 0.058 * length, above = !motion.hangs;
     const ys = this.launcherCorners().map(([, y]) => y), gap = 0.45 * radius;
     const axis = above ? Math.min(...ys) - gap - radius : Math.max(...ys) + gap + radius;
@@ -218,4 +235,4 @@ class Aircraft extends Carrier {
 
 const LOOKS = [Plate, Ship, Aircraft]; // by the geometry's base.looks
 
-export const carrierOf = (motion, scene) => new LOOKS[motion.looks](motion, scene);
+export const carrierOf = (motion, scene, load) => new LOOKS[motion.looks](motion, scene, load);

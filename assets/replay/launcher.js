@@ -97,7 +97,7 @@ function cab(rear, front, floor, deck, side) {
   return group;
 }
 
-function wheel(R) {
+export function wheel(R) {
   const group = new Group();
   group.add(cylinder([0, 0, -0.17], [0, 0, 0.17], R, paint.wheel, edge, 36));
   group.add(cylinder([0, 0, -0.18], [0, 0, 0.18], 0.55 * R, paint.hub, null, 24));

@@ -1,9 +1,11 @@
 // Where everything of a launcher is at an instant, from the columns of its history and its geometry.
 // Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
+import { nodesOf, sectionOf, shapesOf } from "./curve.js";
 import { rowsOf } from "./geometry.js";
 import { guideOf } from "./guide.js";
+import { followedIn, mechanismOf, placesOf } from "./mechanism.js";
 import { outlineOf } from "./outline.js";
-import { add, apply, aboutX, aboutY, aboutZ, multiply, pose, rotation, scaled, subtract } from "./vector.js";
+import { add, apply, aboutX, aboutY, aboutZ, between, multiply, pose, rotation, scaled, subtract } from "./vector.js";
 
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
@@ -26,8 +28,8 @@ export class Motion {
     this.segments = numbered(table.segments);
     this.rockets = rockets;
     const rows = (name) => rowsOf(geometry, name), single = (name) => rows(name)[0];
-    this.stations = rows("tube.station").map(([x]) => x);
-    this.shapes = { b: rows("tube.bending"), slope: rows("tube.bending_slope"), torsion: rows("tube.torsion") };
+    this.shapes = shapesOf(rows, "tube");
+    this.stations = this.shapes.stations;
     this.length = this.stations.at(-1);
     this.guide = guideOf(rows, this.length);
     this.outer = this.guide.outer;
@@ -53,7 +55,7 @@ export class Motion {
     this.slides = named("recoil.", ".travel");
     this.closed = table.column.has("pressure.force");
     this.wheelNames = named("wheel.", ".travel");
-    this.modes = this.shapes.b[0].length;
+    this.mechanism = mechanismOf(rows, [...table.column.keys()]);
   }
 
   get vehicle() {
@@ -102,7 +104,8 @@ export class Motion {
       return values ? values[row] + share * (values[next] - values[row]) : NaN;
     };
     const all = (head, ...names) => names.map((name) => read(head + name));
-    const base = { r: all("base.", "x", "y", "z"), A: pose(...all("base.", "yaw", "pitch", "roll")) };
+    const base = this.mechanism ? this.poseAt("base.", row, next, share)
+      : { r: all("base.", "x", "y", "z"), A: pose(...all("base.", "yaw", "pitch", "roll")) };
     const state = {
       time, part, number: part.number, base, read,
       tube: { r: base.r, A: multiply(base.A, this.mount) },
@@ -113,43 +116,31 @@ export class Motion {
     this.bend(state);
     this.putRocket(state);
     if (this.vehicle) this.putVehicle(state);
+    if (this.mechanism) {
+      state.places = placesOf(this.mechanism, (head) => this.poseAt(head, row, next, share), read);
+      state.followed = followedIn(this.mechanism, state.places) ?? [0, 0, 0];
+    }
     return state;
+  }
+
+  // A frame between two rows; its angles may jump from one to the next.
+  poseAt(head, row, next, share) {
+    const column = (name) => this.values.get(head + name) ?? this.value(head + name), frame = (k) => ({
+      r: ["x", "y", "z"].map((name) => column(name)[k]), A: pose(...["yaw", "pitch", "roll"].map((name) => column(name)[k])) });
+    return share > 0 ? between(frame(row), frame(next), share) : frame(row);
   }
 
   // The tube's axis against the undeformed one: at each station the offset in T.
   bend(state) {
-    const { read } = state, n = this.modes;
-    const q = Array.from({ length: 2 * n + (this.shapes.torsion[0]?.length ?? 0) }, (_, i) => read(`q${i + 1}`));
-    const r = ["x", "y", "z"].map((name) => read(`replay.${name}`));
-    const A = rotation(["rx", "ry", "rz"].map((name) => read(`replay.${name}`)));
-    const sum = (shapes, from) => shapes.reduce((total, shape, i) => total + shape * q[from + i], 0);
-    state.A_TR = A;
-    state.nodes = this.stations.map((x, k) => {
-      const u = [sum(this.shapes.b[k], 0), sum(this.shapes.b[k], n)];
-      const slope = [sum(this.shapes.slope[k], 0), sum(this.shapes.slope[k], n)];
-      const twist = sum(this.shapes.torsion[k] ?? [], 2 * n);
-      return { x, u, slope, twist, P: [x, ...u], A: rotation([twist, -slope[1], slope[0]]) };
-    });
-    state.r_TR = r;
+    const { read } = state;
+    state.r_TR = ["x", "y", "z"].map((name) => read(`replay.${name}`));
+    state.A_TR = rotation(["rx", "ry", "rz"].map((name) => read(`replay.${name}`)));
+    state.nodes = nodesOf(this.shapes, Array.from({ length: this.shapes.count }, (_, i) => read(`q${i + 1}`)));
   }
 
-  // Deflections in R at any station by the elements' own cubics; straight on beyond the ends.
+  // Deflections in R at any station.
   section(state, x) {
-    const { nodes } = state, s = this.stations, last = s.length - 2;
-    let k = Math.min(last, Math.max(0, Math.floor((x / this.length) * (last + 1))));
-    while (k > 0 && x < s[k]) k--;
-    while (k < last && x > s[k + 1]) k++;
-    const a = nodes[k], b = nodes[k + 1], h = b.x - a.x, inside = Math.min(b.x, Math.max(a.x, x));
-    const xi = (inside - a.x) / h, beyond = x - inside;
-    const H = [1 + xi * xi * (2 * xi - 3), h * xi * (1 + xi * (xi - 2)), xi * xi * (3 - 2 * xi),
-      h * xi * xi * (xi - 1)];
-    const D = [(6 * xi * (xi - 1)) / h, 1 + xi * (3 * xi - 4), (6 * xi * (1 - xi)) / h, xi * (3 * xi - 2)];
-    const by = (f, i) => f[0] * a.u[i] + f[1] * a.slope[i] + f[2] * b.u[i] + f[3] * b.slope[i];
-    const slope = [by(D, 0), by(D, 1)];
-    return {
-      P: [x, by(H, 0) + beyond * slope[0], by(H, 1) + beyond * slope[1]],
-      A: rotation([a.twist + xi * (b.twist - a.twist), -slope[1], slope[0]]),
-    };
+    return sectionOf(state.nodes, x);
   }
 
   // How far a point y, z from the guide line is from its place in T on the undeformed tube; `section`: where.
@@ -204,20 +195,26 @@ export class Motion {
 
   // Heights of the road over x under the left and the right wheels, as far as they roll.
   road() {
-    const x = this.value("chassis.x");
     const track = (side) => {
-      const wheels = this.mounts.map((mount, i) => ({ mount, name: this.wheelNames[i] }))
-        .filter(({ mount }) => Math.sign(mount[2]) === side).sort((a, b) => a.mount[0] - b.mount[0]);
       const points = [];
-      for (const { mount, name } of wheels) {
+      for (const { x, name } of this.rolling().filter((wheel) => wheel.side === side).sort((a, b) => a.x[0] - b.x[0])) {
         const h = this.value(`wheel.${name}.road`);
         x.forEach((at, i) => {
-          if (Number.isFinite(h[i]) && !(at + mount[0] <= points.at(-1)?.[0])) points.push([at + mount[0], h[i]]);
+          if (Number.isFinite(h[i]) && !(at <= points.at(-1)?.[0])) points.push([at, h[i]]);
         });
       }
       return points;
     };
     return [track(-1), track(1)];
+  }
+  // The wheels: their places along the way, and the side on which they are.
+  rolling() {
+    if (!this.mechanism) {
+      const x = this.value("chassis.x");
+      return this.mounts.map((mount, i) => ({ name: this.wheelNames[i], side: Math.sign(mount[2]), x: x.map((at) => at + mount[0]) }));
+    }
+    const { wheels } = this.mechanism, z = wheels.map((name) => this.value(`wheel.${name}.z`)[0]), middle = 0.5 * (Math.min(...z) + Math.max(...z));
+    return wheels.map((name, i) => ({ name, side: z[i] < middle ? -1 : 1, x: this.value(`wheel.${name}.x`) }));
   }
 }
 

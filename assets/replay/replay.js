@@ -152,7 +152,8 @@ class Replay {
     if (this.motion.free) return element("div", { className: "key" }, item("rocket", "rocket, of an assumed size, and its path"));
     const { guide, shoes } = this.motion.guide.words;
     return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
-      item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []));
+      item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []),
+      ...(this.motion.mechanism ? [item("joint", "joints")] : []));
   }
   // What the clock covers of the launches' instants and, of one flight, of its own; the launch's own name of the exit is `rear`.
   instants() {

@@ -7,6 +7,7 @@ import { Clamps } from "./clamps.js";
 import { Grid, Horizon, Map, Path, Road, Sea } from "./ground.js";
 import { gltfOf } from "./gltf.js";
 import { Vehicle } from "./launcher.js";
+import { Linkage } from "./linkage.js";
 import { Forces, Rocket } from "./rocket.js";
 import { Pack, Rail, Tube } from "./tubes.js";
 import { add, apply, cross, dot, scaled, subtract, turnedBack, unit } from "./vector.js";
@@ -59,8 +60,8 @@ export class Stage {
   }
   buildLauncher() {
     const { motion, scene } = this;
-    this.base = motion.vehicle ? new Vehicle(motion, scene) : carrierOf(motion, scene);
-    this.road = motion.vehicle ? new Road(motion, scene) : null;
+    this.base = motion.mechanism ? new Linkage(motion, scene) : motion.vehicle ? new Vehicle(motion, scene) : carrierOf(motion, scene);
+    this.road = motion.vehicle || motion.mechanism?.wheels.length > 0 ? new Road(motion, scene) : null;
     this.grid = new Grid(motion.vehicle ? -0.02 : this.base.ground, this.base.sea, scene);
     this.sea = this.base.sea ? new Sea(this.base.ground, scene) : null;
     this.horizon = this.base.horizon ? new Horizon(scene) : null;
@@ -102,7 +103,7 @@ export class Stage {
     const { motion } = this, state = motion.at(time);
     this.state = state;
     const fired = new Set(motion.empty), launching = this.rockets[state.number]?.tube ?? 1;
-    this.anchor = motion.free ? this.flights[0].points().map((values) => values[0]) : motion.vehicle ? [state.chassis.r[0], 0, state.chassis.r[2]] : state.base.r;
+    this.anchor = motion.free ? this.flights[0].points().map((values) => values[0]) : state.followed ?? (motion.vehicle ? [state.chassis.r[0], 0, state.chassis.r[2]] : state.base.r);
     this.flying = this.flights.map((flight) =>
       flight && time >= flight.t[0] ? flight.at(time) : null);
     this.bodies.forEach((body, i) => {
@@ -123,7 +124,7 @@ export class Stage {
     this.draw();
   }
   showLauncher(state, launching, fired) {
-    this.base.show(state, this.anchor);
+    this.base.show(state, this.anchor, this.view === "tube" || this.view === "rocket");
     this.road?.show(this.anchor);
     this.grid.show(this.anchor);
     this.pack.show(state, this.anchor, launching, fired, this.view === "tube" || this.view === "rocket");
@@ -166,7 +167,7 @@ export class Stage {
   }
   // The scene as glTF, without what stands for the ground, the far away and what is seen through others.
   gltf(generator) {
-    const left = new Set([this.grid?.lines, this.sea?.disc, this.horizon?.circle, this.map?.lines,
+    const left = new Set([this.grid?.lines, this.sea?.disc, this.horizon?.circle, this.map?.lines, ...(this.base?.ghosts ?? []),
       ...this.bodies.flatMap(({ ghosts }) => ghosts.map(({ ghost }) => ghost)), ...this.paths.map((path) => path?.wide)]);
     this.scene.updateMatrixWorld();
     return gltfOf(this.scene, (object) => !left.has(object), generator);
@@ -190,6 +191,7 @@ export class Stage {
     if (this.view === "path" && this.map) return subtract(this.launched, anchor);
     if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
+    if (this.view === "launcher" && motion.mechanism) return subtract(state.followed, anchor);
     if (this.view === "launcher") return motion.vehicle ? [0, state.chassis.r[1], 0] : inTube(0.5 * motion.length);
     return inTube(0.55 * motion.length);
   }

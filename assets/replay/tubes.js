@@ -50,7 +50,7 @@ export class Pack {
       part(low[0], low[1], high[0], low[1]);
       part(low[0], high[1], high[0], high[1]);
     }
-    const rear = Math.min(-0.15, x0 + Math.min(...supports)), front = x0 + Math.max(...supports) + 0.05;
+    const rear = this.motion.mechanism ? x0 + Math.min(...supports) - 0.05 : Math.min(-0.15, x0 + Math.min(...supports)), front = x0 + Math.max(...supports) + 0.05;
     for (const z of [low[1] + 0.1, high[1] - 0.1])
       this.group.add(box([rear, low[0] - 0.09, z - 0.04], [front, low[0] - bar, z + 0.04], paint.platform, edge));
   }

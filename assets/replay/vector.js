@@ -43,3 +43,21 @@ export function rotation(v) {
     b * x * y + a * z, c + b * y * y, b * y * z - a * x,
     b * x * z - a * y, b * y * z + a * x, c + b * z * z];
 }
+
+// The rotation vector of a rotation.
+export function turnOf(A) {
+  const cosine = Math.min(1, Math.max(-1, 0.5 * (A[0] + A[4] + A[8] - 1))), angle = Math.acos(cosine);
+  const v = [A[7] - A[5], A[2] - A[6], A[3] - A[1]], sine = 0.5 * Math.hypot(...v);
+  if (angle < 3) return scaled(sine < 1e-9 ? 0.5 : angle / (2 * sine), v);
+  // near half a turn by the largest column of A + E
+  const k = [0, 4, 8].reduce((best, i) => (A[i] > A[best] ? i : best), 0) / 4, column = [0, 3, 6].map((i) => A[i + k] + (i === 3 * k ? 1 : 0));
+  return scaled(dot(column, v) < 0 ? -angle : angle, unit(column));
+}
+
+// Between two frames { r, A }, at a share of the way.
+export function between(a, b, share) {
+  const turn = turnOf(multiply(transposed(a.A), b.A));
+  return { r: add(scaled(1 - share, a.r), scaled(share, b.r)), A: multiply(a.A, rotation(scaled(share, turn))) };
+}
+
+const transposed = (A) => [0, 3, 6, 1, 4, 7, 2, 5, 8].map((i) => A[i]);

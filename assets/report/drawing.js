@@ -2,7 +2,9 @@
 // before ignition, and how the whole stands on its base. What the results do not say is drawn dashed.
 import { rowsOf } from "../replay/geometry.js";
 import { guideOf } from "../replay/guide.js";
+import { cornersOf, frameOf, mechanismOf, nearestOf, outlineOf as pointsOf, placesOf } from "../replay/mechanism.js";
 import { finCorners, outlineOf } from "../replay/outline.js";
+import { add, apply, pose } from "../replay/vector.js";
 import { svg } from "./chart.js";
 import { filled } from "./data.js";
 import { placeOnLine } from "./labels.js";
@@ -54,16 +56,24 @@ function launcherOf(geometry, table, rockets) {
     const column = table.column.get(name);
     return column ? filled(column.value, table.t).find(Number.isFinite) : undefined;
   };
+  // As the launcher stands when its first rocket is ignited.
+  const ready = Math.max(0, Array.from(table.t).filter((t) => t <= (rockets[0]?.ignition ?? table.t[0])).length - 1);
+  const then = (name) => {
+    const column = table.column.get(name);
+    return column ? filled(column.value, table.t)[ready] : undefined;
+  };
+  const mechanism = mechanismOf(rows, [...table.column.keys()]);
   const names = [...table.column.keys()].filter((name) => /^contact\..*\.force$/.test(name)).map((name) => name.slice(8, -6));
   return {
     guide, end, names, stations, rows,
     supports: rows("tube.support").map(([x], i) => ({ x, clamped: rows("tube.clamped")[i]?.some((held) => held === 1) })),
     adaptors: rows("rocket.adaptor").map(([x]) => x), clearances: guide.clearances[0] ?? [],
     outline: outlineOf(rows), centre: rows("rocket.center")[0] ?? [], diameter: rows("rocket.diameter")[0]?.[0],
-    travel: first("rocket.s") ?? 0, pitch: first("base.pitch") ?? 0, mount: rows("base.mount")[0],
+    travel: first("rocket.s") ?? 0, pitch: (mechanism ? then : first)("base.pitch") ?? 0, mount: rows("base.mount")[0],
     places: rows("tubes.rear_end"), tube: rockets[0]?.tube ?? 1, closed: table.column.has("pressure.force"),
     wheels: rows("wheel.mount"), wheelRadius: rows("wheel.radius")[0]?.[0] ?? 0,
     azimuth: rows("azimuth.hinge")[0], elevation: rows("elevation.hinge")[0],
+    mechanism, then,
   };
 }
 
@@ -183,6 +193,40 @@ function sideOf(it) {
   return { tubes, angle: it.pitch, wheels: it.wheels, pivot, ground: Math.min(...it.wheels.map(([, height]) => height)) - it.wheelRadius, body };
 }
 
+// Bodies, joints and what else carries the tubes, in the vertical plane of the tube: points along it and up.
+function mechanismSide(it) {
+  const { mechanism, then } = it, three = (head, ...names) => names.map((name) => then(head + name));
+  const poseOf = (head) => ({ r: three(head, "x", "y", "z"), A: pose(...three(head, "yaw", "pitch", "roll")) });
+  const places = placesOf(mechanism, poseOf, then), base = poseOf("base."), yaw = Math.abs(it.pitch) < 1.4 ? then("base.yaw") : 0;
+  const flat = ([x, y, z]) => [x * Math.cos(yaw) - z * Math.sin(yaw), y], at = (thing, point) => flat(frameOf(mechanism, places, thing, point).r);
+  const rear = it.places[it.tube - 1] ?? it.places[0];
+  const tubes = it.places.map((place) => [0, it.end].map((x) => flat(add(base.r, apply(base.A, [place[0] - rear[0] + x, place[1] - rear[1], place[2] - rear[2]])))));
+  const ties = mechanism.joints.flatMap((joint) => [[joint.parent, joint.at], ...(joint.closes ? [] : [[joint.body, [0, 0, 0]]])]).flatMap(([thing, point]) => {
+    const near = mechanism.bodies[thing] && nearestOf(mechanism.bodies[thing], point);
+    return near ? [[at(thing, point), at(thing, near)]] : [];
+  });
+  return {
+    tubes, angle: it.pitch, pivot: tubes[it.tube - 1]?.[0] ?? tubes[0][0], ties,
+    bodies: mechanism.bodies.map((body, i) => hull(cornersOf(body).map((corner) => at(i, corner)))).filter((corners) => corners.length > 2),
+    beams: mechanism.beams.map(({ shapes }, i) => shapes.stations.map((x) => at(mechanism.bodies.length + i, [x, 0, 0]))),
+    struts: mechanism.struts.map(({ ends, at: points }) => ends.map((thing, i) => at(thing, points[i]))),
+    joints: mechanism.joints.filter(({ kind }) => kind !== "free" && kind !== "fixed").map(({ parent, at: point }) => at(parent, point)),
+    feet: mechanism.feet.map(({ on, at: point }) => at(on, point)), wheels: places.wheels.map(flat), wheelRadius: mechanism.wheelRadius,
+    outline: [...tubes.flat(), ...pointsOf(mechanism, places).map(flat)],
+    stands: mechanism.wheels.length > 0 || mechanism.feet.length > 0 || mechanism.carried || mechanism.joints.some(({ parent, kind }) => parent === -1 && kind !== "free"),
+  };
+}
+
+// Convex hull of points in a plane, in order.
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]), turn = (o, a, b) => (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+  const half = (list) => list.reduce((chain, p) => {
+    while (chain.length > 1 && turn(chain.at(-2), chain.at(-1), p) <= 0) chain.pop();
+    return [...chain, p];
+  }, []).slice(0, -1);
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
 // How it stands, in words; in two lines where one is too wide.
 function standingWords(it, width) {
   const turned = it.mount?.[0] ?? 0, up = it.wheels.length === 0 ? (it.mount?.[1] ?? 0) + it.pitch : it.pitch;
@@ -194,6 +238,7 @@ function standingWords(it, width) {
 }
 
 function standing(it, left, width, top, height) {
+  if (it.mechanism) return mechanismStanding(it, left, width, top, height);
   const lines = standingWords(it, width), foot = 6 + LINE * lines.length;
   const side = sideOf(it), xs = [...side.tubes.flat().map(([x]) => x), ...(side.body ? side.body.slice(0, 2) : [])];
   const ys = [...side.tubes.flat().map(([, y]) => y), side.ground], w = Math.max(...xs) - Math.min(...xs), h = Math.max(...ys) - side.ground;
@@ -207,8 +252,27 @@ function standing(it, left, width, top, height) {
   const [px, py] = [X(side.pivot[0]), Y(side.pivot[1])], reach = Math.min(0.5 * scale * it.end, 46), up = side.angle;
   out.push(circle(px, py, 2.5, "pivot"), line(px, py, px + 1.25 * reach, py, "level"),
     svg("path", { class: "thin", d: `M${px + reach} ${py}A${reach} ${reach} 0 0 ${up > 0 ? 0 : 1} ${px + reach * Math.cos(up)} ${py - reach * Math.sin(up)}` }));
-  lines.forEach((words, i) => out.push(text(words, left + width / 2, top + height - 4 - LINE * (lines.length - 1 - i), "middle")));
-  return out;
+  return [...out, ...captions(lines, left, width, top, height)];
+}
+
+const captions = (lines, left, width, top, height) =>
+  lines.map((words, i) => text(words, left + width / 2, top + height - 4 - LINE * (lines.length - 1 - i), "middle"));
+
+// The same with all that carries the tubes.
+function mechanismStanding(it, left, width, top, height) {
+  const lines = standingWords(it, width), foot = 6 + LINE * lines.length, side = mechanismSide(it);
+  const xs = side.outline.map(([x]) => x), ys = side.outline.map(([, y]) => y), x0 = Math.min(...xs), y0 = Math.min(...ys);
+  const w = Math.max(...xs) - x0, h = Math.max(...ys) - y0, scale = Math.min((width - 20) / w, (height - foot - 14) / h);
+  const X = (x) => left + 10 + (width - 20 - scale * w) / 2 + scale * (x - x0), Y = (y) => top + height - foot - 4 - scale * (y - y0);
+  const on = ([x, y]) => [X(x), Y(y)], joined = ([a, b], kind) => line(...on(a), ...on(b), kind), out = [];
+  if (side.stands) out.push(line(left, Y(y0) + 1, left + width, Y(y0) + 1, "ground"));
+  out.push(...side.bodies.map((corners) => shape(corners.map(on), "part")), ...side.ties.map((ends) => joined(ends, "thin")));
+  for (const points of side.beams) out.push(svg("polyline", { points: points.map((p) => on(p).map((v) => v.toFixed(1)).join(",")).join(" "), class: "mast" }));
+  out.push(...side.struts.map((ends) => joined(ends, "strut")), ...side.wheels.map((r) => circle(...on(r), scale * side.wheelRadius, "wheel")));
+  for (const [x, y] of side.feet.map(on)) out.push(shape([[x - 4, y], [x + 4, y], [x, y - 7]], "support"));
+  for (const [a, b] of side.tubes) out.push(line(...on(a), ...on(b), "tube"));
+  out.push(...side.joints.map((r) => circle(...on(r), 2.5, "joint")));
+  return [...out, ...captions(lines, left, width, top, height)];
 }
 
 // ---- the card
@@ -224,9 +288,9 @@ export function drawingCard({ geometry, table, rockets, named: words }) {
     const width = host.clientWidth;
     if (width === 0 || width === before) return;
     before = width;
-    const beside = width > 560, inset = beside ? Math.min(230, 0.28 * width) : 0;
-    const main = guideDrawing(it, words, inset, width - inset, 4), tall = beside ? Math.max(main.bottom, 110) : main.bottom + 130;
-    const other = beside ? standing(it, 0, inset - 10, 4, tall - 4) : standing(it, 0, width, main.bottom + 10, 120);
+    const beside = width > 560, inset = beside ? Math.min(it.mechanism ? 300 : 230, 0.28 * width) : 0, high = it.mechanism ? 190 : 110;
+    const main = guideDrawing(it, words, inset, width - inset, 4), tall = beside ? Math.max(main.bottom, high) : main.bottom + high + 20;
+    const other = beside ? standing(it, 0, inset - 10, 4, tall - 4) : standing(it, 0, width, main.bottom + 10, high + 10);
     picture.setAttribute("viewBox", `0 0 ${width} ${tall.toFixed(0)}`);
     picture.dataset.scale = main.scale;
     picture.replaceChildren(...other, ...main.nodes);

@@ -17,6 +17,36 @@ int mechanism_body(const ld_mechanism *self, const char *name)
     return LD_ON_NOTHING;
 }
 
+int beam_coordinates(const ld_beam *beam)
+{
+    return 2 * beam->modes.bending + beam->modes.torsion + beam->modes.axial;
+}
+
+int mechanism_beam_coordinates(const ld_mechanism *self)
+{
+    int count = 0;
+    for (int i = 0; i < self->beam_count; i++)
+        count += beam_coordinates(&self->beam[i]);
+    return count;
+}
+
+static bool is_carrier(const char *name)
+{
+    return strcmp(name, "carrier") == 0;
+}
+
+bool mechanism_has_carrier(const ld_mechanism *self)
+{
+    bool has = false;
+    for (int i = 0; i < self->joint_count; i++)
+        has = has || is_carrier(self->joint[i].parent);
+    for (int i = 0; i < self->bushing_count; i++)
+        has = has || is_carrier(self->bushing[i].from) || is_carrier(self->bushing[i].to);
+    for (int i = 0; i < self->strut_count; i++)
+        has = has || is_carrier(self->strut[i].from) || is_carrier(self->strut[i].to);
+    return has;
+}
+
 int mechanism_joint(const ld_mechanism *self, const char *name)
 {
     for (int i = 0; i < self->joint_count; i++)

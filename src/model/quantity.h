@@ -38,6 +38,8 @@ typedef enum quantity_each {
     EACH_ROLLING,
     EACH_BODY,
     EACH_BEAM,
+    EACH_BEAM_COORDINATE, // modal
+    EACH_CARRIER,         // where something stands on it
     EACH_JOINT,
     EACH_TURN,   // joint that turns about one axis
     EACH_SLIDER, // joint that slides along one

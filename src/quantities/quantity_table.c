@@ -42,6 +42,8 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_ROLLING] = multibody && vehicle->wheel_count > 0,
                   [EACH_BODY] = multibody ? parts->body_count : 0,
                   [EACH_BEAM] = multibody ? parts->beam_count : 0,
+                  [EACH_BEAM_COORDINATE] = multibody ? mechanism_beam_coordinates(parts) : 0,
+                  [EACH_CARRIER] = multibody && mechanism_has_carrier(parts),
                   [EACH_JOINT] = multibody ? parts->joint_count : 0,
                   [EACH_TURN] = multibody ? parts->turns.count : 0,
                   [EACH_SLIDER] = multibody ? parts->slides.count : 0,
@@ -104,17 +106,37 @@ int quantity_item_named(const quantity_things *things, quantity_each each, const
     return -1;
 }
 
+// Modal coordinates count through all beams and are named after them: BEAM.q1.
+static void name_coordinate(const ld_mechanism *parts, int item, char *to, size_t size)
+{
+    int i = 0;
+    for (; item >= beam_coordinates(&parts->beam[i]); i++)
+        item -= beam_coordinates(&parts->beam[i]);
+    snprintf(to, size, "%s.q%d", parts->beam[i].name, item + 1);
+}
+
+static void name_thing(quantity_each each, int item, const quantity_things *things, char *to,
+                       size_t size)
+{
+    if (each == EACH_BEAM_COORDINATE)
+        name_coordinate(&model_base(things->model)->mechanism, item, to, size);
+    else if (!things->name[each])
+        snprintf(to, size, "%d", item + 1);
+    else
+        snprintf(to, size, "%s", quantity_name_of(things, each, item));
+}
+
 void quantity_text(const char *text, quantity_each each, int item, const quantity_things *things,
                    char *to, size_t size)
 {
     const char *mark = strstr(text, "%s");
-    if (!mark)
+    char of[QUANTITY_NAME];
+    if (!mark) {
         snprintf(to, size, "%s", text);
-    else if (!things->name[each])
-        snprintf(to, size, "%.*s%d%s", (int)(mark - text), text, item + 1, mark + 2);
-    else
-        snprintf(to, size, "%.*s%s%s", (int)(mark - text), text,
-                 quantity_name_of(things, each, item), mark + 2);
+        return;
+    }
+    name_thing(each, item, things, of, sizeof of);
+    snprintf(to, size, "%.*s%s%s", (int)(mark - text), text, of, mark + 2);
 }
 
 // Leaves groups of which there is nothing.

@@ -43,6 +43,19 @@ static bool is_one_of(const char *name, const char *const *list, size_t count)
     return false;
 }
 
+// Columns HEAD.NAME.LAST of what a base of bodies has.
+static bool is_of_mechanism(const char *name)
+{
+    static const char *const heads[] = {"body.", "beam.", "wheel.", "carrier."};
+    static const char *const lasts[] = {"x", "y", "z", "yaw", "pitch", "roll", "travel", "road"};
+    const char *last = strrchr(name, '.');
+    bool head = false;
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++)
+        head = head || strncmp(name, heads[i], strlen(heads[i])) == 0;
+    bool coordinate = last && last[1] == 'q' && strncmp(name, "beam.", 5) == 0;
+    return head && last && (coordinate || is_one_of(last + 1, lasts, sizeof lasts / sizeof *lasts));
+}
+
 bool report_replay_shows(const char *name, bool flight)
 {
     static const char *const of_launcher[] = {
@@ -57,6 +70,7 @@ bool report_replay_shows(const char *name, bool flight)
         return is_one_of(name, of_flight, sizeof of_flight / sizeof *of_flight);
     return is_one_of(name, of_launcher, sizeof of_launcher / sizeof *of_launcher) ||
            is_one_of(name, derived, DERIVED) || strncmp(name, "shoe.", 5) == 0 ||
+           is_of_mechanism(name) ||
            (*name == 'q' && name[1] && strspn(name + 1, "0123456789") == strlen(name + 1));
 }
 

@@ -9,80 +9,9 @@
 #include "model/guide.h"
 #include "model/parts.h"
 #include "model/salvo.h"
-
-enum { MOST_ARRAYS = 32 };
-
-// Arrays under way; their values lie one after the other in `value`.
-typedef struct geometry {
-    ld_array array[MOST_ARRAYS];
-    size_t count;
-    double *value;
-    size_t used;
-} geometry;
-
-// Room for one more array, to be filled row by row; one without numbers is left out.
-static double *add(geometry *all, const char *name, const char *unit, size_t rows, size_t columns,
-                   const char *description)
-{
-    double *value = all->value + all->used;
-    if (rows * columns > 0)
-        all->array[all->count++] = (ld_array){name, unit, description, rows, columns, value};
-    all->used += rows * columns;
-    return value;
-}
-
-static void add_row(geometry *all, const char *name, const char *unit, int count,
-                    const double *values, const char *description)
-{
-    double *to = add(all, name, unit, 1, (size_t)count, description);
-    for (int i = 0; i < count; i++)
-        to[i] = values[i];
-}
+#include "state/geometry_arrays.h"
 
 // ---- tube ----
-
-// Value or slope of a plane's shapes at node `node`: coefficients of the element that begins there,
-// or at the end of the last one.
-static void bending_at(const flexible_tube *tube, int plane, int node, int derivative, double *to)
-{
-    bool last = node == tube->element_count;
-    const tube_element *element = &tube->element[last ? node - 1 : node];
-    double xi = last ? element->x1 - element->x0 : 0;
-    const double(*b)[LD_NB] = element->b[plane];
-    for (int i = 0; i < tube->nb; i++)
-        to[i] = derivative ? b[1][i] + xi * (2 * b[2][i] + xi * 3 * b[3][i])
-                           : b[0][i] + xi * (b[1][i] + xi * (b[2][i] + xi * b[3][i]));
-}
-
-static void add_shapes(geometry *all, const flexible_tube *tube)
-{
-    int nodes = tube->element_count + 1;
-    size_t rows = (size_t)nodes, nb = (size_t)tube->nb;
-    double *station = add(all, "tube.station", "m", rows, 1, "nodes of the finite elements");
-    double *b[] = {add(all, "tube.bending", "kg-0.5", rows, nb,
-                       "bending modes at the stations: y of the axis in R over q; cubic between"),
-                   add(all, "tube.bending_z", "kg-0.5", rows, nb, "the same for z")};
-    double *slope[] = {add(all, "tube.bending_slope", "kg-0.5.m-1", rows, nb, "slopes for y"),
-                       add(all, "tube.bending_z_slope", "kg-0.5.m-1", rows, nb, "slopes for z")};
-    double *torsion = add(all, "tube.torsion", "kg-0.5.m-1", rows, (size_t)tube->nt,
-                          "torsion modes: rotation about x over q; linear between");
-    double *axial = add(all, "tube.axial", "kg-0.5", rows, (size_t)tube->na,
-                        "axial modes: x over q; linear between");
-    for (int k = 0; k < nodes; k++) {
-        bool last = k == tube->element_count;
-        const tube_element *element = &tube->element[last ? k - 1 : k];
-        double xi = last ? element->x1 - element->x0 : 0;
-        station[k] = element->x0 + xi;
-        for (int plane = PLANE_Y; plane <= PLANE_Z; plane++) {
-            bending_at(tube, plane, k, 0, b[plane] + k * tube->nb);
-            bending_at(tube, plane, k, 1, slope[plane] + k * tube->nb);
-        }
-        for (int i = 0; i < tube->nt; i++)
-            torsion[k * tube->nt + i] = element->tau[0][i] + xi * element->tau[1][i];
-        for (int i = 0; i < tube->na; i++)
-            axial[k * tube->na + i] = element->a[0][i] + xi * element->a[1][i];
-    }
-}
 
 // None where nothing is clamped.
 static void add_clamps(geometry *all, const ld_tubes *tubes)
@@ -90,29 +19,18 @@ static void add_clamps(geometry *all, const ld_tubes *tubes)
     unsigned clamped = 0;
     for (int i = 0; i < tubes->support_count; i++)
         clamped |= tubes->support[i].clamped;
-    double *held =
-        add(all, "tube.clamped", "1", clamped ? (size_t)tubes->support_count : 0, LD_CLAMPS,
-            "1 where a support holds rigidly along x, y, z, about x, y, z; else 0");
+    double *held = geometry_add(
+        all, "tube.clamped", "1", clamped ? (size_t)tubes->support_count : 0, LD_CLAMPS,
+        "1 where a support holds rigidly along x, y, z, about x, y, z; else 0");
     for (int i = 0; clamped && i < tubes->support_count * LD_CLAMPS; i++)
         held[i] = support_clamps(&tubes->support[i / LD_CLAMPS], (ld_clamp)(i % LD_CLAMPS));
 }
 
 static void add_tube(geometry *all, const ld_tubes *tubes)
 {
-    double *section = add(all, "tube.section", "m", (size_t)tubes->section_count, 3,
-                          "sections: station where each begins, inner and outer radius");
-    for (int i = 0; i < tubes->section_count; i++) {
-        const ld_section *from = &tubes->section[i];
-        double bore = from->bore_radius;
-        section[3 * i] = from->from;
-        section[3 * i + 1] = bore;
-        section[3 * i + 2] = from->form == LD_SECTION_ANNULUS ? from->outer_radius
-                             : from->form == LD_SECTION_AREA
-                                 ? sqrt(bore * bore + from->area / 3.14159265358979323846)
-                                 : NAN;
-    }
-    double *support =
-        add(all, "tube.support", "m", (size_t)tubes->support_count, 1, "stations of the supports");
+    geometry_add_sections(all, "tube", tubes->section, tubes->section_count);
+    double *support = geometry_add(all, "tube.support", "m", (size_t)tubes->support_count, 1,
+                                   "stations of the supports");
     for (int i = 0; i < tubes->support_count; i++)
         support[i] = tubes->support[i].at;
     add_clamps(all, tubes);
@@ -136,16 +54,17 @@ static void add_guide(geometry *all, const ld_tubes *tubes)
     if (count == 0)
         return;
     double form = tubes->guide.form + 1;
-    add_row(all, "guide.form", "1", 1, &form,
-            "a guide of 1 surfaces, 2 a T-slot, 3 a tower's rails");
-    add_row(all, "guide.line", "m", 2, tubes->guide.line, "y, z of the guide line in R");
-    double *at =
-        add(all, "guide.surface", "m", count, 2, "y, z of each surface's point, from the line");
-    double *normal = add(all, "guide.normal", "rad", count, 1,
-                         "direction from the shoe to each surface, from y towards z");
-    double *gap =
-        add(all, "guide.gap", "m", count, 1, "gap of each surface; of a shoe its clearance more");
-    double *round = add(all, "guide.round", "1", count, 1, "1: the surface is round, 0: flat");
+    geometry_add_row(all, "guide.form", "1", 1, &form,
+                     "a guide of 1 surfaces, 2 a T-slot, 3 a tower's rails");
+    geometry_add_row(all, "guide.line", "m", 2, tubes->guide.line, "y, z of the guide line in R");
+    double *at = geometry_add(all, "guide.surface", "m", count, 2,
+                              "y, z of each surface's point, from the line");
+    double *normal = geometry_add(all, "guide.normal", "rad", count, 1,
+                                  "direction from the shoe to each surface, from y towards z");
+    double *gap = geometry_add(all, "guide.gap", "m", count, 1,
+                               "gap of each surface; of a shoe its clearance more");
+    double *round =
+        geometry_add(all, "guide.round", "1", count, 1, "1: the surface is round, 0: flat");
     for (size_t k = 0; k < count; k++) {
         at[2 * k] = surface[k].at[0];
         at[2 * k + 1] = surface[k].at[1];
@@ -153,8 +72,9 @@ static void add_guide(geometry *all, const ld_tubes *tubes)
         gap[k] = surface[k].gap;
         round[k] = surface[k].shape == LD_SURFACE_ROUND;
     }
-    double *outline = add(all, "guide.outline", "m", (size_t)tubes->section_count, 2,
-                          "half height and half width of a solid rectangle like each section");
+    double *outline =
+        geometry_add(all, "guide.outline", "m", (size_t)tubes->section_count, 2,
+                     "half height and half width of a solid rectangle like each section");
     for (int i = 0; i < tubes->section_count; i++)
         section_outline(&tubes->section[i], outline + 2 * i);
 }
@@ -162,12 +82,13 @@ static void add_guide(geometry *all, const ld_tubes *tubes)
 static void add_layout(geometry *all, const ld_tubes *tubes)
 {
     int count = tubes->layout.rows * tubes->layout.columns;
-    double *place = add(all, "tubes.rear_end", "m", (size_t)count, 3,
-                        "rear end of each tube, undeformed, axes of the elevation platform");
+    double *place =
+        geometry_add(all, "tubes.rear_end", "m", (size_t)count, 3,
+                     "rear end of each tube, undeformed, axes of the elevation platform");
     for (int i = 0; i < count; i++)
         v3_store(place + 3 * i, orientating_tube_place(&tubes->layout, i + 1));
-    double *empty = add(all, "tubes.empty", "1", (size_t)tubes->empty_count, 1,
-                        "numbers of the tubes without a rocket from the start");
+    double *empty = geometry_add(all, "tubes.empty", "1", (size_t)tubes->empty_count, 1,
+                                 "numbers of the tubes without a rocket from the start");
     for (int i = 0; i < tubes->empty_count; i++)
         empty[i] = tubes->empty[i];
 }
@@ -200,9 +121,10 @@ static void add_fins(geometry *all, const ld_aerodynamics *aero)
     size_t fins = 0;
     for (int i = 0; i < aero->surface_count; i++)
         fins += aero->surface[i].kind == LD_AIR_FINS;
-    double *fin = add(all, "rocket.fins", "m", fins, 7,
-                      "x in B of the root's front end, root chord, tip chord, span, sweep length, "
-                      "radius of the body; number of fins");
+    double *fin =
+        geometry_add(all, "rocket.fins", "m", fins, 7,
+                     "x in B of the root's front end, root chord, tip chord, span, sweep length, "
+                     "radius of the body; number of fins");
     for (int i = 0; i < aero->surface_count; i++) {
         const ld_air_surface *of = &aero->surface[i];
         if (of->kind != LD_AIR_FINS)
@@ -235,8 +157,8 @@ static void add_outline(geometry *all, const ld_aerodynamics *aero)
         return;
     for (int i = 0; i < bodies; i++)
         points += outline_of(sorted[i], outline + points);
-    double *body = add(all, "rocket.outline", "m", (size_t)points, 2,
-                       "x in B and radius along the body from its tip; straight between");
+    double *body = geometry_add(all, "rocket.outline", "m", (size_t)points, 2,
+                                "x in B and radius along the body from its tip; straight between");
     for (int i = 0; i < 2 * points; i++)
         body[i] = outline[i / 2][i % 2];
     add_fins(all, aero);
@@ -247,9 +169,9 @@ static void add_rocket(geometry *all, const ld_model *model)
     const ld_rocket *rocket = salvo_rocket(model, 0);
     int count = rocket->adaptor_count,
         firings = salvo_is_given(model) ? model_firing_count(model) : 1;
-    double *at = add(all, "rocket.adaptor", "m", (size_t)count, 1,
-                     "centres of the adaptors on the axis, from the rear one's");
-    double *clearance = add(
+    double *at = geometry_add(all, "rocket.adaptor", "m", (size_t)count, 1,
+                              "centres of the adaptors on the axis, from the rear one's");
+    double *clearance = geometry_add(
         all, "rocket.clearance", "m", (size_t)firings, (size_t)count,
         "radial clearance of each adaptor, added to a shoe's gaps; by firing where rockets differ");
     for (int i = 0; i < count; i++)
@@ -257,10 +179,11 @@ static void add_rocket(geometry *all, const ld_model *model)
     for (int i = 0; i < firings * count; i++)
         clearance[i] = salvo_rocket(model, i / count)->adaptor[i % count].clearance;
     double center[2] = {rocket->full.center[0], rocket->empty.center[0]};
-    add_row(all, "rocket.center", "m", 2, center, "x of the mass centre in B, full and empty");
+    geometry_add_row(all, "rocket.center", "m", 2, center,
+                     "x of the mass centre in B, full and empty");
     if (rocket->aerodynamics.present)
-        add_row(all, "rocket.diameter", "m", 1, &rocket->aerodynamics.reference_diameter,
-                "reference diameter of the aerodynamics");
+        geometry_add_row(all, "rocket.diameter", "m", 1, &rocket->aerodynamics.reference_diameter,
+                         "reference diameter of the aerodynamics");
     add_outline(all, &rocket->aerodynamics);
 }
 
@@ -269,34 +192,40 @@ static void add_base(geometry *all, const base_system *base)
     const ld_model *model = base->model;
     const ld_base *given = model_base(model);
     const ld_vehicle *vehicle = &given->vehicle;
-    if (!base_as_vehicle(base)) {
-        double mount[2] = {given->azimuth, given->elevation};
-        add_row(all, "base.mount", "rad", 2, mount, "tube against the base: azimuth, elevation");
-        double looks = given->looks;
-        add_row(all, "base.looks", "1", looks != LD_LOOKS_PLAIN, &looks,
-                "what the base is drawn as: 1 ship, 2 aircraft; a plain one has none");
+    if (base_as_multibody(base)) {
+        geometry_add_mechanism(all, base_as_multibody(base));
         return;
     }
-    add_row(all, "azimuth.hinge", "m", 3, model_platform(model)->azimuth.hinge_at,
-            "hinge of the azimuth platform, axes of the chassis, from its mass centre");
-    add_row(all, "elevation.hinge", "m", 3, model_platform(model)->elevation.hinge_at,
-            "hinge of the elevation platform, axes of the azimuth platform, from its hinge");
-    double *mount = add(all, "wheel.mount", "m", (size_t)vehicle->wheel_count, 3,
-                        "wheel centres with unloaded suspension, axes of the chassis");
+    if (!base_as_vehicle(base)) {
+        double mount[2] = {given->azimuth, given->elevation};
+        geometry_add_row(all, "base.mount", "rad", 2, mount,
+                         "tube against the base: azimuth, elevation");
+        double looks = given->looks;
+        geometry_add_row(all, "base.looks", "1", looks != LD_LOOKS_PLAIN, &looks,
+                         "what the base is drawn as: 1 ship, 2 aircraft; a plain one has none");
+        return;
+    }
+    geometry_add_row(all, "azimuth.hinge", "m", 3, model_platform(model)->azimuth.hinge_at,
+                     "hinge of the azimuth platform, axes of the chassis, from its mass centre");
+    geometry_add_row(
+        all, "elevation.hinge", "m", 3, model_platform(model)->elevation.hinge_at,
+        "hinge of the elevation platform, axes of the azimuth platform, from its hinge");
+    double *mount = geometry_add(all, "wheel.mount", "m", (size_t)vehicle->wheel_count, 3,
+                                 "wheel centres with unloaded suspension, axes of the chassis");
     for (int i = 0; i < 3 * vehicle->wheel_count; i++)
         mount[i] = vehicle->wheel[i / 3].mount[i % 3];
-    add_row(all, "wheel.radius", "m", 1, &vehicle->tyre.radius, "radius of the tyres");
+    geometry_add_row(all, "wheel.radius", "m", 1, &vehicle->tyre.radius, "radius of the tyres");
 }
 
 // Numbers that the arrays hold, at most.
 static size_t room_for(const ld_simulation *self)
 {
     const flexible_tube *tube = &self->launcher.launching.tube.flexible;
-    size_t nodes = (size_t)tube->element_count + 1;
-    return nodes * (size_t)(1 + 2 * tube->nb + tube->nt + tube->na) + 3 * LD_MAX_SECTIONS +
-           2 * LD_MAX_SECTIONS + (1 + LD_CLAMPS) * LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES +
-           4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS +
-           LD_MAX_AIR_SURFACES * (2 * (NOSE_STEPS + 1) + 7) + 20;
+    return geometry_shapes_room(tube) + 3 * LD_MAX_SECTIONS + 2 * LD_MAX_SECTIONS +
+           (1 + LD_CLAMPS) * LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES + 4 * LD_MAX_TUBES +
+           (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS +
+           LD_MAX_AIR_SURFACES * (2 * (NOSE_STEPS + 1) + 7) + 20 +
+           geometry_mechanism_room(base_as_multibody(&self->launcher.base));
 }
 
 ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld_error *error)
@@ -307,7 +236,7 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
     all.value = malloc(room_for(self) * sizeof *all.value);
     if (!all.value)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the geometry");
-    add_shapes(&all, &self->launcher.launching.tube.flexible);
+    geometry_add_shapes(&all, "tube", &self->launcher.launching.tube.flexible);
     add_tube(&all, model_tubes(self->model));
     add_guide(&all, model_tubes(self->model));
     add_layout(&all, model_tubes(self->model));

@@ -22,6 +22,7 @@ enum {
     LD_MAX_LOADS = 8,
     LD_MAX_DRAGS = 8,
     LD_MAX_BEAM_SECTIONS = 8,
+    LD_MAX_BEAM_COORDINATES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES,
 };
 
 /// What a body is drawn as; nothing of its mechanics.
@@ -29,13 +30,15 @@ typedef enum ld_body_shape {
     LD_SHAPE_INERTIA, ///< the box of its mass and inertia; a beam by its sections
     LD_SHAPE_BOX,
     LD_SHAPE_CYLINDER,
+    LD_SHAPE_ELLIPSOID,
     LD_SHAPE_NONE,
 } ld_body_shape;
 
 typedef struct ld_appearance {
     ld_body_shape shape;
-    double at[3];   ///< [m] centre of box or cylinder, body axes
-    double size[3]; ///< [m] box: along x, y, z; cylinder: length along x, diameters
+    double at[3];       ///< [m] centre, body axes
+    double attitude[3]; ///< [rad] yaw, pitch, roll of its axes against the body's
+    double size[3];     ///< [m] along x, y, z; a cylinder's axis is x
 } ld_appearance;
 
 /// A rigid body.
@@ -215,6 +218,14 @@ typedef struct ld_mechanism {
 
 /// Whom a point belongs to, where it is not a body.
 enum { LD_ON_GROUND = -1, LD_ON_CARRIER = -2, LD_ON_NOTHING = -3 };
+
+/// Number of a beam's modal coordinates (bending along y, along z, torsion, stretch), and of all
+/// beams' together.
+int beam_coordinates(const ld_beam *beam);
+int mechanism_beam_coordinates(const ld_mechanism *self);
+
+/// Whether anything stands on the frame that moves as is said.
+bool mechanism_has_carrier(const ld_mechanism *self);
 
 /// Number of the body of that name, rigid ones first, then beams, or one of the above.
 int mechanism_body(const ld_mechanism *self, const char *name);

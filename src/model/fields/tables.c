@@ -555,7 +555,8 @@ static const field_row base_fields[] = {
     {"wheels_on", WORD(ld_base, mechanism.wheels_on), .forms = MULTIBODY, .initial_doc = "none",
      .doc = "body that the wheels carry, in whose axes they are mounted"},
     {"looks", CHOICE(ld_base, looks, looks_words), DEFAULT(LD_LOOKS_PLAIN),
-     .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU, .doc = "appearance in the replay"},
+     .forms = FIXED_OR_PRESCRIBED | EXTERNAL | FMU | MULTIBODY,
+     .doc = "appearance in the replay; of a multibody base that of its carrier"},
     {0}};
 static const field_block base_block = {.fields = base_fields,
                                        .form = base_words,

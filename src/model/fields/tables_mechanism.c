@@ -14,18 +14,17 @@
 
 // ---- bodies
 
-static const field_word shape_words[] = {{"inertia", LD_SHAPE_INERTIA},
-                                         {"box", LD_SHAPE_BOX},
-                                         {"cylinder", LD_SHAPE_CYLINDER},
-                                         {"none", LD_SHAPE_NONE},
-                                         {NULL, 0}};
+static const field_word shape_words[] = {
+    {"inertia", LD_SHAPE_INERTIA},     {"box", LD_SHAPE_BOX},   {"cylinder", LD_SHAPE_CYLINDER},
+    {"ellipsoid", LD_SHAPE_ELLIPSOID}, {"none", LD_SHAPE_NONE}, {NULL, 0}};
 static const field_row looks_fields[] = {
     {"shape", CHOICE(ld_appearance, shape, shape_words), DEFAULT(LD_SHAPE_INERTIA),
      .doc = "the box of its mass and inertia, or what `at` and `size` give"},
-    {"at", VECTOR(ld_appearance, at, "m", 3), PLACE, DEFAULT(0),
-     .doc = "centre of box or cylinder, body axes"},
+    {"at", VECTOR(ld_appearance, at, "m", 3), PLACE, DEFAULT(0), .doc = "its centre, body axes"},
+    {"attitude", VECTOR(ld_appearance, attitude, "rad", 3), TURN, DEFAULT(0),
+     .doc = "yaw, pitch, roll of its axes against the body's"},
     {"size", VECTOR(ld_appearance, size, "m", 3), FROM_TO(0, 1000), DEFAULT(1),
-     .doc = "box: along x, y, z; cylinder: length along x, then its diameters along y and z"},
+     .doc = "lengths along its x, y, z; a cylinder's axis is x"},
     {0}};
 static const field_block looks_block = {.fields = looks_fields};
 

@@ -100,7 +100,8 @@ typedef struct axis_instant {
 
 // What the quantities of a mechanism are about.
 typedef struct multibody_instant {
-    body_instant body[LD_MAX_BODIES], beam[LD_MAX_BEAMS];
+    body_instant body[LD_MAX_BODIES], beam[LD_MAX_BEAMS], carrier;
+    double coordinate[LD_MAX_BEAMS * LD_MAX_BEAM_COORDINATES]; // [kg0.5 m]
     axis_instant turn[LD_MAX_JOINTS], slide[LD_MAX_JOINTS];
     joint_load joint[LD_MAX_JOINTS];
     hinge_report drive[LD_MAX_DRIVES];
@@ -278,7 +279,8 @@ void base_find(const base_system *self, const base_found *found, const base_outp
 // The road under a vehicle of a run of its own (base_share) is this one, which outlives it.
 void base_set_road(base_system *self, road *under);
 
-// A base of kind vehicle; NULL: it is none.
+// A base of kind vehicle, of kind multibody; NULL: it is none.
 const vehicle_system *base_as_vehicle(const base_system *self);
+const mechanism_system *base_as_multibody(const base_system *self);
 
 #endif

@@ -393,6 +393,8 @@ static void set_start_velocity(const base_system *self, double *state)
     const mechanism_system *mechanism = mechanism_of(self);
     double speed = own->model->base.vehicle.speed;
     mechanism_set_off(mechanism, state);
+    if (!self->disturbed) // linearised, it is at rest
+        mechanism_start_speeds(mechanism, state);
     project(self, -own->model->run.lead_in, state);
     if (!own->has_wheels || !(speed > 0))
         return;
@@ -653,6 +655,7 @@ static const base_dynamics dynamics = {
 // ---- quantities
 
 #define EACH(array, member) .at = QUANTITY_OF_EACH(multibody_instant, array, member)
+#define EACH_OF(array) .at = QUANTITY_EACH_OF(multibody_instant, array)
 #define AT(member) .at = QUANTITY_AT(multibody_instant, member)
 
 // clang-format off
@@ -671,6 +674,17 @@ static const base_dynamics dynamics = {
     {what ".%s.wz", "rad/s", what " %s: angular velocity in its own axes", EACH(array, w[2])}
 static const quantity of_bodies[] = {OF_BODY(body, "body")};
 static const quantity of_beams[] = {OF_BODY(beam, "beam")};
+static const quantity of_beam_coordinates[] = {
+    {"beam.%s", "kg0.5.m", "modal coordinate %s (bending y, z, torsion, axial)", EACH_OF(coordinate)},
+};
+static const quantity of_carrier[] = {
+    {"carrier.x", "m", "carrier: origin in I", AT(carrier.r[0])},
+    {"carrier.y", "m", "carrier: origin in I", AT(carrier.r[1])},
+    {"carrier.z", "m", "carrier: origin in I", AT(carrier.r[2])},
+    {"carrier.yaw", "rad", "carrier: yaw of Ry(yaw) Rz(pitch) Rx(roll)", AT(carrier.angles[0])},
+    {"carrier.pitch", "rad", "carrier: pitch", AT(carrier.angles[1])},
+    {"carrier.roll", "rad", "carrier: roll", AT(carrier.angles[2])},
+};
 static const quantity of_turns[] = {
     {"joint.%s.angle", "rad", "joint %s: angle", EACH(turn, state[0])},
     {"joint.%s.rate", "rad/s", "joint %s: rate of the angle", EACH(turn, state[1])},
@@ -730,6 +744,8 @@ static const quantity of_wheels[] = {
 static const quantity_group quantity_groups[] = {
     {.title = "each body", .each = EACH_BODY, QUANTITY_ROWS(of_bodies)},
     {.title = "each beam", .each = EACH_BEAM, QUANTITY_ROWS(of_beams)},
+    {.title = "each modal coordinate of a beam", .each = EACH_BEAM_COORDINATE, QUANTITY_ROWS(of_beam_coordinates)},
+    {.title = "carrier, where something stands on it", .each = EACH_CARRIER, QUANTITY_ROWS(of_carrier)},
     {.title = "each joint that turns about one axis", .each = EACH_TURN, QUANTITY_ROWS(of_turns)},
     {.title = "each joint that slides along one axis", .each = EACH_SLIDER, QUANTITY_ROWS(of_slides)},
     {.title = "each joint", .each = EACH_JOINT, QUANTITY_ROWS(of_joints)},
@@ -766,12 +782,22 @@ static const quantity_group input_groups[] = {
 };
 static const quantity_table inputs = {input_groups, sizeof input_groups / sizeof *input_groups};
 
+// Upright, yaw and roll turn about one axis: that is told as roll.
+static void find_angles(const m3 *A, double angles[3])
+{
+    m3_yaw_pitch_roll(A, angles);
+    if (hypot(A->a[0][0], A->a[2][0]) > 1e-9)
+        return;
+    angles[0] = 0;
+    angles[2] = atan2(A->a[2][1], A->a[2][2]);
+}
+
 static void find_body(const body_motion *from, body_instant *to)
 {
     v3_store(to->r, from->r);
     v3_store(to->v, from->v);
     v3_store(to->w, m3_apply_transposed(from->A, from->w));
-    m3_yaw_pitch_roll(&from->A, to->angles);
+    find_angles(&from->A, to->angles);
 }
 
 // Joints with one axis, those that turn and those that slide each in their order.
@@ -789,6 +815,20 @@ static void find_joints(const mechanism_system *self, const mechanism_motion *mo
     }
 }
 
+// Modal coordinates follow those of the hinge that carries the beam.
+static void find_beams(const mechanism_system *self, const mechanism_motion *motion,
+                       multibody_instant *now)
+{
+    const ld_mechanism *given = self->given;
+    double *to = now->coordinate;
+    for (int i = 0; i < given->beam_count; i++) {
+        int count = beam_coordinates(&given->beam[i]);
+        find_body(&motion->body[given->body_count + i], &now->beam[i]);
+        memcpy(to, motion->q + mechanism_beam_at(self, i), (size_t)count * sizeof *to);
+        to += count;
+    }
+}
+
 static void fill_instant(const base_system *base, const base_found *found,
                          const base_output *output, const double *state, base_instant *instant)
 {
@@ -800,8 +840,9 @@ static void fill_instant(const base_system *base, const base_found *found,
     const double *wheel = state + marching_at(base);
     for (int i = 0; i < given->body_count; i++)
         find_body(&found->multibody.body[i], &now->body[i]);
-    for (int i = 0; i < given->beam_count; i++)
-        find_body(&found->multibody.body[given->body_count + i], &now->beam[i]);
+    find_beams(self, &found->multibody, now);
+    const base_frame *carrier = &found->multibody.carrier;
+    find_body(&(body_motion){carrier->r, carrier->v, carrier->A, carrier->w}, &now->carrier);
     mechanism_joint_loads(self, &found->multibody, output->rate, &report->mechanism, now->joint);
     find_joints(self, &found->multibody, of, now);
     memcpy(now->drive, of->hold, (size_t)given->drive_count * sizeof *now->drive);
@@ -822,6 +863,11 @@ static void fill_instant(const base_system *base, const base_found *found,
 static void describe(const base_system *base, FILE *stream)
 {
     mechanism_describe(mechanism_of(base), stream);
+}
+
+const mechanism_system *base_as_multibody(const base_system *self)
+{
+    return self->kind == &base_multibody ? mechanism_of(self) : NULL;
 }
 
 const base_interface base_multibody = {

@@ -21,6 +21,18 @@ static hinge_parts parts_of(ld_hinge hinge)
                          hinge == LD_HINGE_FREE || hinge == LD_HINGE_SPHERICAL};
 }
 
+const flexible_tube *mechanism_beam(const mechanism_system *self, int number)
+{
+    int element = self->given->body_count + number;
+    return &self->chain->beams[self->chain->element_beam[element]].tube;
+}
+
+int mechanism_beam_at(const mechanism_system *self, int number)
+{
+    int element = self->given->body_count + number;
+    return self->chain->element_q[element] + self->chain->q_length[element];
+}
+
 void mechanism_start(const mechanism_system *self, double *state)
 {
     const ld_mstmm *chain = self->chain;
@@ -158,7 +170,7 @@ void mechanism_tolerances(const mechanism_system *self, double tolerance, double
             absolute[chain->element_q[e] + k] = true;
 }
 
-void mechanism_set_off(const mechanism_system *self, double *state)
+void mechanism_start_speeds(const mechanism_system *self, double *state)
 {
     double *u = state + self->q_count;
     for (int i = 0; i < self->given->joint_count; i++) {
@@ -171,6 +183,10 @@ void mechanism_set_off(const mechanism_system *self, double *state)
         if (joint->kind == LD_JOINT_REVOLUTE || joint->kind == LD_JOINT_CYLINDRICAL)
             *at = joint->rate;
     }
+}
+
+void mechanism_set_off(const mechanism_system *self, double *state)
+{
     for (int i = 0; i < self->hold_count && self->hold[i].drive >= 0; i++)
         if (self->hold[i].control)
             stabiliser_rest(self->hold[i].control, state[self->z_at + i],

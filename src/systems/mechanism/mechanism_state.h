@@ -3,7 +3,12 @@
 #ifndef LD_SYSTEMS_MECHANISM_STATE_H
 #define LD_SYSTEMS_MECHANISM_STATE_H
 
+#include "elements/tube/flexible_tube.h"
 #include "systems/mechanism/mechanism.h"
+
+// A beam as built, by its number from 0; where its modal coordinates begin in q.
+const flexible_tube *mechanism_beam(const mechanism_system *self, int number);
+int mechanism_beam_at(const mechanism_system *self, int number);
 
 // Coordinates and speeds as the scenario gives them, holds without torque; not assembled.
 void mechanism_start(const mechanism_system *self, double *state);
@@ -40,8 +45,9 @@ int mechanism_rolling(const mechanism_system *self);
 void mechanism_tolerances(const mechanism_system *self, double tolerance, double *atol,
                           bool *absolute);
 
-// The speeds of the start; drives at rest under the torques of their holds.
+// Drives at rest under the torques of their holds; the speeds that the joints start with.
 void mechanism_set_off(const mechanism_system *self, double *state);
+void mechanism_start_speeds(const mechanism_system *self, double *state);
 
 // The first instant [s] after t at which a command has a corner, or a load one.
 double mechanism_next_corner(const mechanism_system *self, double t);
