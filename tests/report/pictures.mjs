@@ -67,7 +67,19 @@ scatter:
   await take(browser, "report-measured.png", measured, { width: 1280, height: 1100, top: "#measured" });
 }
 
+// A launcher of one's own each, 0.1 s after ignition.
+async function launchers(browser) {
+  for (const name of ["erector", "suspended", "trailer", "mast", "gondola", "sled", "ship-turntable"]) {
+    const page = await open(browser, runOf(`multibody/${name}.yaml`).file, { width: 800 });
+    await page.evaluate(() => window.launchdyn.current.show(0.1, true));
+    await drawn(page);
+    await page.locator(".screen").screenshot({ path: join(process.env.LD_SCREENSHOTS, `replay-${name}.png`) });
+    await page.context().close();
+  }
+}
+
 await inBrowser(async (browser) => {
+  await launchers(browser);
   await oneRun(browser);
   await severalRuns(browser);
   await studies(browser);

@@ -1,0 +1,100 @@
+// Launchers of one's own in the replay and in the drawing: what joints hold together is drawn together, what stands does so
+// on the ground, nothing is cut off.
+import { check, drawn, inBrowser, leave, open, picture, runOf } from "./support.mjs";
+
+// What is drawn of the base: origins and axes of the bodies, the end of each beam, the middle of each joint's mark, all in I;
+// how low any of it is, and how far from the picture's middle, as a share of half its width and height.
+const drawnBase = (page) => page.evaluate(() => {
+  const { stage } = window.launchdyn.current, { base, motion, camera, anchor } = stage, { bodies } = motion.mechanism;
+  const point = camera.position.clone(), inI = () => point.toArray().map((x, i) => x + anchor[i]), spread = [0, 0];
+  let low = 1e9;
+  stage.scene.updateMatrixWorld(true);
+  base.group.traverse((node) => {
+    const corners = node.geometry?.attributes.position;
+    for (let i = 0; node.isMesh && node.visible && i < corners.count; i++) {
+      point.fromBufferAttribute(corners, i).applyMatrix4(node.matrixWorld);
+      low = Math.min(low, inI()[1]);
+      point.project(camera);
+      spread[0] = Math.max(spread[0], Math.abs(point.x));
+      spread[1] = Math.max(spread[1], Math.abs(point.y));
+    }
+  });
+  const middle = (points) => points.reduce((sum, p) => sum.map((x, k) => x + p[k] / points.length), [0, 0, 0]);
+  const heads = base.beams.map(({ mesh }, i) => {
+    const corners = mesh.geometry.attributes.position, around = corners.count / motion.mechanism.beams[i].radii.length;
+    return middle(Array.from({ length: around - 1 }, (_, k) => { // a ring ends where it begins
+      point.fromBufferAttribute(corners, corners.count - 1 - k);
+      return inI();
+    }));
+  });
+  return {
+    heads, low, spread,
+    body: Object.fromEntries(bodies.map(({ name }, i) => {
+      base.bodies[i].getWorldPosition(point);
+      return [name, { r: inI(), axes: base.bodies[i].matrixWorld.toArray() }];
+    })),
+    marks: base.joints.map(({ joint, mark }) => {
+      mark.getWorldPosition(point);
+      return { kind: joint.kind, body: bodies[joint.body]?.name, at: inI() };
+    }),
+  };
+});
+
+const apart = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
+// A point of a body in I.
+const pointOf = ({ r, axes }, p) => r.map((x, k) => x + axes[k] * p[0] + axes[4 + k] * p[1] + axes[8 + k] * p[2]);
+
+async function opened(browser, name, ...options) {
+  console.log(name);
+  const page = await open(browser, runOf(`multibody/${name}.yaml`, ...options).file, { width: 500 });
+  await page.evaluate(() => window.launchdyn.current.show(0.1, true));
+  await drawn(page);
+  const found = await drawnBase(page), { spread } = found;
+  check("nothing of it is cut off", spread[0] < 1 && spread[1] < 1 && Math.max(...spread) > 0.5, spread);
+  const cut = await page.$$eval(".plan .part, .plan .joint, .plan .strut, .plan .mast", (list) => list.filter((node) => {
+    const { x, y, width, height } = node.getBBox(), box = node.ownerSVGElement.viewBox.baseVal;
+    return x < 0 || y < 0 || x + width > box.width || y + height > box.height;
+  }).length);
+  check("nor of the drawing", cut === 0, cut);
+  return { page, found, count: (selector) => page.$$eval(`.plan ${selector}`, (list) => list.length) };
+}
+
+async function close(page, name) {
+  await picture(page, `${name}.png`);
+  await leave(page);
+}
+
+// Boom, cylinder and rod close a loop: the rod's eye is where the boom's is.
+async function checkErector(browser) {
+  const { page, found: { body, marks, low }, count } = await opened(browser, "erector");
+  const boom = pointOf(body.boom, [1.6, -0.15, 0]), rod = pointOf(body.rod, [1.7, 0, 0]), eye = marks.at(-1);
+  check("the rod's eye is the boom's", apart(boom, rod) < 1e-5, apart(boom, rod));
+  check("the joint's mark is there", eye.kind === "universal" && apart(eye.at, boom) < 1e-9, apart(eye.at, boom));
+  check("the pivot is where the scenario says", apart(marks[1].at, [0, 1.6, 0]) < 1e-9, marks[1].at);
+  check("every joint has its mark, the drawing too", marks.length === 5 && (await count(".joint")) === 4, marks.length);
+  check("the drawing has all bodies", (await count(".part")) === 4);
+  check("it stands on the ground", low > -0.1 && low < 0.2, low);
+  await close(page, "erector");
+}
+
+// A beam is drawn to where it carries the cradle.
+async function checkMast(browser) {
+  const { page, found: { body, heads }, count } = await opened(browser, "mast");
+  check("the mast reaches the cradle", apart(heads[0], body.cradle.r) < 1e-5, apart(heads[0], body.cradle.r));
+  check("it is in the drawing", (await count(".mast")) === 1);
+  await close(page, "mast");
+}
+
+// Jacks and tyres on the ground.
+async function checkTrailer(browser) {
+  const { page, found: { low }, count } = await opened(browser, "trailer");
+  check("it stands on the ground", Math.abs(low) < 0.05, low);
+  check("the drawing has jacks and wheels", (await count(".wheel")) === 4 && (await count(".body, .support")) >= 4);
+  await close(page, "trailer");
+}
+
+await inBrowser(async (browser) => {
+  await checkErector(browser);
+  await checkMast(browser);
+  await checkTrailer(browser);
+});
