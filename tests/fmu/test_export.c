@@ -11,6 +11,7 @@
 #include "support/library_run.h"
 
 #define EXAMPLE(name) LD_SOURCE_DIR "/examples/" name ".yaml"
+#define MULTIBODY LD_SOURCE_DIR "/tests/data/multibody/launcher.yaml"
 
 // ---- the library ----
 
@@ -120,8 +121,9 @@ static int count_unequal(const unpacked_fmu *fmu, void *instance, library *by)
 static void tells_what_the_library_tells(void **state)
 {
     (void)state;
-    static const char *const scenarios[] = {EXAMPLE("fixed"), EXAMPLE("ship"), EXAMPLE("smooth")};
-    for (int i = 0; i < 3; i++) {
+    static const char *const scenarios[] = {EXAMPLE("fixed"), EXAMPLE("ship"), EXAMPLE("smooth"),
+                                            MULTIBODY};
+    for (int i = 0; i < 4; i++) {
         unpacked_fmu fmu = fmu_open(scenarios[i], 3);
         library by = begin_with(scenarios[i], NULL, NULL);
         void *instance = begin_3(&fmu, false);
@@ -658,6 +660,7 @@ static void is_described(void **state)
     for (int version = 2; version <= 3; version++) {
         check_description("examples/reference.yaml", version);
         check_description("examples/spin-rig.yaml", version);
+        check_description(MULTIBODY, version);
         check_description("examples/reference.yaml --part vehicle", version);
         check_description("examples/reference.yaml --part launcher", version);
     }
