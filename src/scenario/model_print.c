@@ -159,7 +159,7 @@ static bool has_value(const field_row *f, const void *base)
 // Whether the key has a value to print.
 static bool is_given(const field_row *f, const void *base, int form)
 {
-    return field_has_form(f, form) && has_value(f, base);
+    return field_has_form(f, form) && !field_is_absent(f, base, form) && has_value(f, base);
 }
 
 // The word that stands for a block that is not there; "": it is.

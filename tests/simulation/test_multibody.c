@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "launchdyn/response.h"
 #include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/recorded_run.h"
@@ -214,6 +215,126 @@ static void in_words(void **state)
     model_clear(&model);
 }
 
+// ---- linearised
+
+static ld_simulation *simulation_of(const ld_model *model)
+{
+    ld_simulation *simulation;
+    ld_error error;
+    if (ld_simulation_create(model, &simulation, &error))
+        fail_msg("%s", error.text);
+    return simulation;
+}
+
+// Loops take no frequency away and add none.
+static void modes_of_a_loop(void **state)
+{
+    (void)state;
+    enum { MOST = 200 };
+    static ld_mode modes[2][MOST];
+    static ld_pole poles[2][MOST];
+    int count[2], pole_count[2];
+    double worst = 0, worst_pole = 0;
+    for (int i = 0; i < 2; i++) {
+        ld_model model = i ? read_text(CRADLE MOUNT("ground") LOOSE PIVOT("") REST, NULL, 0)
+                           : read_text(CRADLE MOUNT("ground") PIVOT("") REST, NULL, 0);
+        ld_simulation *simulation = simulation_of(&model);
+        ld_error error;
+        if (ld_simulation_system_modes(simulation, modes[i], MOST, &count[i], poles[i], MOST,
+                                       &pole_count[i], &error))
+            fail_msg("%s", error.text);
+        ld_simulation_free(simulation);
+        model_clear(&model);
+    }
+    assert_int_equal(count[0], count[1]);
+    assert_int_equal(pole_count[0], pole_count[1]);
+    for (int k = 0; k < count[0]; k++)
+        worst = fmax(worst, fabs(modes[1][k].frequency / modes[0][k].frequency - 1));
+    for (int k = 0; k < pole_count[0]; k++)
+        worst_pole =
+            fmax(worst_pole, hypot(poles[1][k].real - poles[0][k].real,
+                                   fabs(poles[1][k].imaginary) - fabs(poles[0][k].imaginary)) /
+                                 hypot(poles[0][k].real, poles[0][k].imaginary));
+    printf("    %d modes, %d eigenvalues\n", count[0], pole_count[0]);
+    CHECK_BELOW("natural frequencies (relative)", worst, 2e-9);
+    CHECK_BELOW("eigenvalues (relative)", worst_pole, 2e-9);
+}
+
+static void choose(ld_response *response, const char *const *names, size_t count)
+{
+    ld_error error;
+    if (ld_response_choose(response, names, count, &error))
+        fail_msg("%s", error.text);
+}
+
+static ld_response *respond(const ld_model *model)
+{
+    ld_response *response;
+    ld_error error;
+    if (ld_response_create(model, NAN, NAN, &response, &error))
+        fail_msg("%s", error.text);
+    return response;
+}
+
+// Its answers to a force are those of the tree.
+static void response_of_a_loop(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"tip.inertial_vy", "joint.pivot.angle",
+                                        "joint.pivot.fx",  "joint.mount.mz",
+                                        "body.frame.wx",   "rocket.pitch_rate"};
+    static const double frequency[] = {0.3, 4, 25};
+    enum { NAMES = sizeof names / sizeof *names, POINTS = 3 };
+    ld_phasor gain[2][POINTS][NAMES];
+    double worst = 0;
+    for (int i = 0; i < 2; i++) {
+        ld_model model = i ? read_text(CRADLE MOUNT("ground") LOOSE PIVOT("") REST, NULL, 0)
+                           : read_text(CRADLE MOUNT("ground") PIVOT("") REST, NULL, 0);
+        ld_response *response = respond(&model);
+        ld_error error;
+        choose(response, names, NAMES);
+        if (ld_response_gain(response, 0, "platform.force_y", frequency, POINTS, gain[i][0],
+                             &error))
+            fail_msg("%s", error.text);
+        ld_response_free(response);
+        model_clear(&model);
+    }
+    for (int k = 0; k < NAMES; k++) {
+        double size = 0;
+        for (int f = 0; f < POINTS; f++)
+            size = fmax(size, hypot(gain[0][f][k].real, gain[0][f][k].imaginary));
+        for (int f = 0; f < POINTS; f++)
+            worst = fmax(worst, hypot(gain[1][f][k].real - gain[0][f][k].real,
+                                      gain[1][f][k].imaginary - gain[0][f][k].imaginary) /
+                                    size);
+    }
+    CHECK_BELOW("gains of columns, of the largest", worst, 1e-8);
+}
+
+// A slow moment about a vertical axis turns what a spring holds about it by M / k.
+static void a_slow_moment_bends_a_spring(void **state)
+{
+    (void)state;
+    static const char *const name = "joint.azimuth.angle";
+    static const char *const level[] = {"base.elevation=0 deg"};
+    const double k = 6e5, slow = 1e-3;
+    ld_model model = read_text(
+        CRADLE
+        "    - {name: azimuth, kind: revolute, parent: ground, body: frame, axis: 0 1 0,\n"
+        "       rotational_stiffness: 6e5 N.m/rad, rotational_damping: 1e3 N.m.s/rad}\n"
+        "    - {name: weld, kind: fixed, parent: frame, body: cradle, at: 0.2 0.6 0 m}\n" REST,
+        level, 1);
+    ld_response *response = respond(&model);
+    ld_phasor gain;
+    ld_error error;
+    choose(response, &name, 1);
+    if (ld_response_gain(response, 0, "platform.moment_y", &slow, 1, &gain, &error))
+        fail_msg("%s", error.text);
+    CHECK_BELOW("angle for a moment (relative)", gain.real * k - 1, 1e-6);
+    ld_response_free(response);
+    model_clear(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +342,9 @@ int main(void)
         cmocka_unit_test(on_a_moving_carrier),
         cmocka_unit_test(far_from_its_start),
         cmocka_unit_test(in_words),
+        cmocka_unit_test(modes_of_a_loop),
+        cmocka_unit_test(response_of_a_loop),
+        cmocka_unit_test(a_slow_moment_bends_a_spring),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

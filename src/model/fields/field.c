@@ -85,9 +85,22 @@ bool field_has_form(const field_row *field, int form)
     return field->forms == 0 || (form >= 0 && form < 32 && (field->forms >> form & 1u));
 }
 
+static bool is_optional(const field_row *field, int form)
+{
+    return form >= 0 && form < 32 && (field->optional >> form & 1u);
+}
+
 bool field_is_required(const field_row *field, int form)
 {
-    return field->required && !(form >= 0 && form < 32 && (field->optional >> form & 1u));
+    return field->required && !is_optional(field, form);
+}
+
+bool field_is_absent(const field_row *field, const void *base, int form)
+{
+    int count = 1;
+    if (field->counted)
+        memcpy(&count, (const char *)base + field->counted, sizeof count);
+    return is_optional(field, form) && count == 0;
 }
 
 void *field_entry(void *base, const field_row *field, int i)

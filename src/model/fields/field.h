@@ -79,7 +79,8 @@ typedef struct field_row {
     const char *name;
     field_kind kind;
     bool required;
-    unsigned optional;       // bit f: not required in form f
+    unsigned optional;       // bit f: not required in form f, where it says nothing
+    size_t counted;          // while the int there is 0; 0: it says something anyhow
     size_t offset;           // in the block's struct; FIELD_NOWHERE: nothing is stored
     size_t other;            // list: its count; choice: its number; block with words: its switch;
                              // table of a wind: its axes, read before; of a clock: its origin
@@ -142,6 +143,8 @@ int field_form(const field_block *block, const void *base);
 bool field_has_form(const field_row *field, int form);
 // Whether the key must be given in form `form`.
 bool field_is_required(const field_row *field, int form);
+// Whether the key says nothing in the block's struct, which is in form `form`.
+bool field_is_absent(const field_row *field, const void *base, int form);
 
 // Sets every value of the block to its default (recursively; tables and lists empty).
 void field_initialise(const field_block *block, void *base);

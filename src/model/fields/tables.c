@@ -476,6 +476,7 @@ static const field_word inputs_words[] = {
     {"held", LD_FMU_HELD}, {"extrapolated", LD_FMU_EXTRAPOLATED}, {NULL, 0}};
 static const field_word axes_words[] = {
     {"inertial", LD_FMU_AXES_OF_I}, {"body", LD_FMU_AXES_OF_BODY}, {NULL, 0}};
+#define WITH_WHEELS .counted = offsetof(ld_base, vehicle.wheel_count)
 #define WITHOUT_WHEELS "none with `multibody`"
 static const field_row base_fields[] = {
     {"kind", CHOICE(ld_base, kind, base_words), .required = true, .doc = "base of the tube"},
@@ -493,23 +494,23 @@ static const field_row base_fields[] = {
      SWITCH(ld_base, sea.present, sea_words), .other_is_bool = true,
      .doc = "waves on deep water and the ship's response, added to velocity and sines"},
     {"speed", NUMBER(ld_base, vehicle.speed, "m/s"), FROM_TO(0, 1000), REQUIRED,
-     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, .initial_doc = WITHOUT_WHEELS,
-     .doc = "marching speed, kept by the drive; 0: parked"},
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, WITH_WHEELS,
+     .initial_doc = WITHOUT_WHEELS, .doc = "marching speed, kept by the drive; 0: parked"},
     {"road", BLOCK(ld_base, vehicle.road, road_block), .required = true,
-     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, .initial_doc = WITHOUT_WHEELS,
-     .doc = "height over x of I: flat, or the sum of what is given"},
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, WITH_WHEELS,
+     .initial_doc = WITHOUT_WHEELS, .doc = "height over x of I: flat, or the sum of what is given"},
     {"wheels", LIST(ld_base, vehicle.wheel, vehicle.wheel_count, wheel_block, 1, LD_MAX_WHEELS),
-     .required = true, .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY,
+     .required = true, .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, WITH_WHEELS,
      .initial_doc = WITHOUT_WHEELS, .doc = "masses on suspensions and tyres, all alike"},
     {"drive", SAME_STRUCT(drive_block), .required = true, .forms = VEHICLE | MULTIBODY,
-     .optional = MULTIBODY, .initial_doc = WITHOUT_WHEELS,
+     .optional = MULTIBODY, WITH_WHEELS, .initial_doc = WITHOUT_WHEELS,
      .doc = "force that keeps the speed, equal on all driven wheels"},
     {"suspension", BLOCK(ld_base, vehicle.suspension, suspension_block), .required = true,
-     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, .initial_doc = WITHOUT_WHEELS,
-     .doc = "spring-damper between chassis and each wheel"},
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, WITH_WHEELS,
+     .initial_doc = WITHOUT_WHEELS, .doc = "spring-damper between chassis and each wheel"},
     {"tyre", BLOCK(ld_base, vehicle.tyre, tyre_block), .required = true,
-     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, .initial_doc = WITHOUT_WHEELS,
-     .doc = "between each wheel and the road"},
+     .forms = VEHICLE | MULTIBODY, .optional = MULTIBODY, WITH_WHEELS,
+     .initial_doc = WITHOUT_WHEELS, .doc = "between each wheel and the road"},
     {"extrapolation", CHOICE(ld_base, extrapolation, extrapolation_words),
      DEFAULT(LD_EXTRAPOLATION_ACCELERATION), .forms = EXTERNAL,
      .doc =

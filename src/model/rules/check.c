@@ -290,7 +290,7 @@ static void check_block(model_checker *checker, const key_path *path, const fiel
         return;
     }
     for (const field_row *f = block->fields; f->name; f++)
-        if (field_has_form(f, form))
+        if (field_has_form(f, form) && !field_is_absent(f, base, form))
             check_field(checker, &(key_path){path, f->name, 0}, f, base);
 }
 

@@ -334,6 +334,11 @@ static int evaluate(const base_system *self, const base_found *found, const base
         .linear = load->linear || self->disturbed,
     };
     mechanism_output *of = &output->report.multibody.mechanism;
+    if (self->disturbed) {
+        const base_inputs *outside = &self->disturbed->input;
+        input.tube_force = v3_add(input.tube_force, outside->tube_force);
+        input.tube_moment = v3_add(input.tube_moment, outside->tube_moment);
+    }
     output->elastic = 0;
     roll(self, load, motion, state, output, &input);
     find_air(own, motion, &input);
