@@ -81,8 +81,12 @@ static void describe_base(FILE *stream, const ld_model *model)
     else
         fputs(looks[base->looks], stream);
     if (!ld_model_number(model, "base.elevation", &elevation, NULL)) {
-        fprintf(stream, "; launcher %s %s", DEGREES(fabs(elevation)),
-                elevation < 0 ? "down" : "up");
+        fputs("; ", stream);
+        if (base->kind == LD_BASE_MULTIBODY)
+            fprintf(stream, "%s on %s, ", model_guide_word(model), VISIBLE(model->tubes.on));
+        else
+            fputs("launcher ", stream);
+        fprintf(stream, "%s %s", DEGREES(fabs(elevation)), elevation < 0 ? "down" : "up");
         if (base->azimuth != 0)
             fprintf(stream, ", %s to the %s", DEGREES(fabs(base->azimuth)),
                     base->azimuth < 0 ? "right" : "left");

@@ -166,14 +166,15 @@ static void in_words(void **state)
     static const char expected[] =
         "# bodies and the joints that carry them:\n"
         "#   ground\n"
-        "#     frame: turns about a point at mount\n"
-        "#       cradle: turns about an axis at pivot, driven by lift, locked from 0.1 s; carries "
+        "#     frame: turns about a point in joint mount\n"
+        "#       cradle: turns about an axis in joint pivot, driven by lift, locked from 0.1 s; "
+        "carries "
         "the "
         "tube\n"
         "#   carrier\n"
-        "#     beam mast: slides along an axis at lift\n"
-        "#   loop: cradle turns about an axis on frame at again, 5 constraints, 5 redundant\n"
-        "#   loop: cradle turns about a point on ground at ball, 3 constraints, 1 redundant\n"
+        "#     beam mast: slides along an axis in joint lift\n"
+        "#   loop: cradle turns about an axis on frame in joint again, 5 constraints, 5 redundant\n"
+        "#   loop: cradle turns about a point on ground in joint ball, 3 constraints, 1 redundant\n"
         "# degrees of freedom: 3 (5 of the tree less 2 that loops take), and 5 modes of beams\n";
     ld_model model = read_text(CRADLE MOUNT("ground") PIVOT(
                                    ", lock: {from: 0.1 s, stiffness: 1e6 N.m/rad, damping: 1e4 "

@@ -25,7 +25,7 @@ static const char *motion_of(ld_joint_kind kind)
     case LD_JOINT_PLANAR:
         return "slides in a plane and turns in it";
     case LD_JOINT_FREE:
-        return "is free";
+        return "moves freely";
     }
     return "is fixed";
 }
@@ -53,7 +53,7 @@ static void describe_carried(const mechanism_system *self, const char *parent, i
         if (self->joint_element[i] < 0 || strcmp(joint->parent, parent) != 0)
             continue;
         bool bends = self->joint_element[i] >= given->body_count;
-        fprintf(stream, "#   %*s%s%s: %s at %s", 2 * depth, "", bends ? "beam " : "",
+        fprintf(stream, "#   %*s%s%s: %s in joint %s", 2 * depth, "", bends ? "beam " : "",
                 VISIBLE(joint->body), motion_of(joint->kind), VISIBLE(joint->name));
         describe_holders(given, joint, stream);
         if (strcmp(self->model->tubes.on, joint->body) == 0)
@@ -99,7 +99,7 @@ static void describe_loop(const mechanism_system *self, int i, FILE *stream)
 {
     const ld_joint *joint = &self->given->joint[i];
     int constraints = constraints_of(joint->kind), implied = implied_of(self, i);
-    fprintf(stream, "#   loop: %s %s on %s at %s, %d constraint%s", VISIBLE(joint->body),
+    fprintf(stream, "#   loop: %s %s on %s in joint %s, %d constraint%s", VISIBLE(joint->body),
             motion_of(joint->kind), VISIBLE(joint->parent), VISIBLE(joint->name), constraints,
             plural(constraints));
     if (implied > 0)
