@@ -10,6 +10,7 @@
 #include "launch/launch_flights.h"
 #include "launch/launch_limits.h"
 #include "launch/launch_measures.h"
+#include "launch/launch_parts.h"
 #include "launch/launch_rows.h"
 #include "launch/launch_summary.h"
 #include "model/blocks/firing.h"
@@ -25,6 +26,8 @@ static void set_up_rocket(ld_run *run, int i, double t)
     run->greatest_lock_force = 0;
     for (int k = 0; k < HINGES; k++)
         run->watch[k] = (hinge_watch){.since = NAN};
+    for (int k = 0; k < LD_MAX_DRIVES; k++)
+        run->drive_watch[k] = (hinge_watch){.since = NAN};
     ld_rocket_summary *rocket = &run->summary.rocket[i];
     run->summary.rocket_count = i + 1;
     rocket_clear(rocket, true);
@@ -144,6 +147,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
     launch_watch_recoil(run, t, y);
     launch_watch_loads(run, t, y);
     launch_watch_hinges(run, t, y);
+    launch_watch_parts(run, t, y);
     launch_measure_step(run, outcome != INTEGRATOR_STEPPED);
     if (!status && outcome != INTEGRATOR_STEPPED)
         status = launch_write_row(run, t, y);

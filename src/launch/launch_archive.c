@@ -52,6 +52,13 @@ static void archive_launch(archive *bytes, launch_state *self)
     archive_double(bytes, &self->worst_condition);
 }
 
+static void archive_watch(archive *bytes, hinge_watch *watch)
+{
+    archive_double(bytes, &watch->since);
+    archive_doubles(bytes, watch->latest, sizeof watch->latest / sizeof *watch->latest);
+    archive_doubles(bytes, watch->sum, sizeof watch->sum / sizeof *watch->sum);
+}
+
 static void archive_output(archive *bytes, ld_run *run)
 {
     double *numbers[] = {&run->energy_start, &run->t_start,       &run->t_end,
@@ -60,12 +67,13 @@ static void archive_output(archive *bytes, ld_run *run)
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         archive_double(bytes, numbers[i]);
     const ld_run_settings *steps = model_run(run->launch.model);
-    for (int i = 0; i < HINGES; i++) {
-        hinge_watch *watch = &run->watch[i];
-        archive_double(bytes, &watch->since);
-        archive_doubles(bytes, watch->latest, sizeof watch->latest / sizeof *watch->latest);
-        archive_doubles(bytes, watch->sum, sizeof watch->sum / sizeof *watch->sum);
-    }
+    for (int i = 0; i < HINGES; i++)
+        archive_watch(bytes, &run->watch[i]);
+    int drives = model_has_multibody(run->launch.model)
+                     ? model_base(run->launch.model)->mechanism.drive_count
+                     : 0;
+    for (int i = 0; i < drives; i++)
+        archive_watch(bytes, &run->drive_watch[i]);
     bytes->failed |= run->output_step != steps->output_step_lead_in &&
                      run->output_step != steps->output_step_tube;
     archive_count(bytes, &run->output_index);

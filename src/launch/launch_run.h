@@ -68,7 +68,7 @@ struct ld_run {
     int64_t steps_since_progress;
     bool sink_failed;
     double greatest_lock_force;
-    hinge_watch watch[HINGES];
+    hinge_watch watch[HINGES], drive_watch[LD_MAX_DRIVES];
     double t_rocket;                         // [s] start of the current rocket's instants
     double t_measured;                       // [s] where the last step ended
     measure_window measure[LD_MAX_MEASURES]; // of the rocket that is in its tube

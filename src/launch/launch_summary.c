@@ -153,9 +153,7 @@ void launch_watch_loads(ld_run *run, double t, const double *y)
     }
 }
 
-// One hinge at a time since the ignition; the integrals continue by the trapezoidal rule, one that
-// begins after the ignition as if it had been so since then.
-static void watch_hinge(hinge_watch *watch, double since, const hinge_report *hinge,
+void launch_watch_hinge(hinge_watch *watch, double since, const hinge_report *hinge,
                         ld_hinge_summary *held)
 {
     double power = fabs(hinge->torque * hinge->rate), torque = hinge->torque;
@@ -186,8 +184,8 @@ void launch_watch_hinges(ld_run *run, double t, const double *y)
         return;
     const launcher_output *at = simulation_output(self, t, y);
     for (int i = 0; i < HINGES && at; i++)
-        watch_hinge(&run->watch[i], since, &at->base.report.vehicle.hinge[i],
-                    &run->summary.rocket[self->current].hinge[i]);
+        launch_watch_hinge(&run->watch[i], since, &at->base.report.vehicle.hinge[i],
+                           &run->summary.rocket[self->current].hinge[i]);
 }
 
 void launch_energy_at(const launch_state *self, double t, const double *y, double energy_start,

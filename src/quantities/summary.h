@@ -9,6 +9,7 @@
 
 #include "launchdyn/simulation.h"
 #include "model/blocks/limits.h"
+#include "model/blocks/mechanism.h"
 
 enum { LD_MAX_MODES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES };
 
@@ -85,6 +86,11 @@ typedef struct ld_hinge_summary {
     double power_mean, power_peak;  ///< [W] magnitude of torque times rate of the hinge
 } ld_hinge_summary;
 
+/// How a foot of a multibody base stood from a rocket's ignition to its exit.
+typedef struct ld_foot_summary {
+    double force_peak, force_least; ///< [N] vertical, of the ground on it
+} ld_foot_summary;
+
 /// Largest of what the tube carried at a station; NaN where that was not asked for.
 typedef struct ld_station_summary {
     double bending;   ///< [N m] magnitude of the bending moment
@@ -146,6 +152,8 @@ typedef struct ld_rocket_summary {
     ld_station_summary station[LD_MAX_STATIONS]; ///< in the model's order
     ld_support_summary support[LD_MAX_SUPPORTS]; ///< in the model's order
     ld_hinge_summary hinge[2];                   ///< azimuth, elevation
+    ld_hinge_summary drive[LD_MAX_DRIVES];       ///< of a multibody base, [rad], [N m] or [m], [N]
+    ld_foot_summary foot[LD_MAX_FEET];
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
                            ///< moved against the platform
     double measure[LD_MAX_MEASURES]; ///< in the model's order; NaN: its instants did not all come
@@ -211,6 +219,12 @@ typedef struct ld_equilibrium_summary {
         double angle;  ///< [rad]
         double torque; ///< [N m] on the outboard body
     } hinge[2];        ///< azimuth, elevation
+    struct {
+        double measured; ///< [rad], [m]
+        double torque;   ///< [N m], [N]
+    } drive[LD_MAX_DRIVES];
+    double foot_force[LD_MAX_FEET];    ///< [N] vertical
+    double strut_force[LD_MAX_STRUTS]; ///< [N] pushing, with that of its actuator
 } ld_equilibrium_summary;
 
 struct ld_summary {

@@ -152,6 +152,20 @@ static const quantity held[] = {
     {"%s.power_mean", "W", "%s: magnitude of torque times rate of the hinge, mean", HELD(power_mean), KEPT, LINE("%s power", "W, mean and peak", 1, 1)},
     {"%s.power_peak", "W", "%s: its largest value", HELD(power_peak), KEPT, .from_zero = true, BESIDE(1)},
 };
+#define DRIVEN(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, drive, member)
+static const quantity driven[] = {
+    {"drive.%s.error_rms", "1", "drive %s: command minus measured [rad] or [m], rms", DRIVEN(error_rms), LINE("drive %s error", "mrad or mm, rms", MILLI, 4)},
+    {"drive.%s.torque_rms", "1", "drive %s: torque [N m] or force [N] of drive or lock, rms", DRIVEN(torque_rms), LINE("drive %s torque", "N m or N, rms and peak", 1, 1)},
+    {"drive.%s.torque_peak", "1", "drive %s: its largest magnitude", DRIVEN(torque_peak), .from_zero = true, BESIDE(1)},
+    {"drive.%s.saturated", "s", "drive %s: time at the limit", DRIVEN(saturated), .from_zero = true, NONZERO("drive %s saturated", "ms", MILLI, 3)},
+    {"drive.%s.power_mean", "W", "drive %s: magnitude of torque times rate, mean", DRIVEN(power_mean)},
+    {"drive.%s.power_peak", "W", "drive %s: magnitude of torque times rate, largest", DRIVEN(power_peak), .from_zero = true},
+};
+#define STANDING(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, foot, member)
+static const quantity standing[] = {
+    {"foot.%s.force_peak", "N", "foot %s: largest vertical force", STANDING(force_peak), LINE("foot %s force", "N, largest and least", 1, 1)},
+    {"foot.%s.force_least", "N", "foot %s: least vertical force; 0: it lifted", STANDING(force_least), BESIDE(1)},
+};
 static const quantity change[] = {
     {"energy_dropped", "J", "kinetic energy lost at the change to its tube; 0 for the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},
 };
@@ -238,6 +252,8 @@ static const quantity_group rocket_groups[] = {
     {.title = "largest loads of a support", .each = EACH_SUPPORT, .launch = true, .block = SHOWN_PEAKS, QUANTITY_ROWS(support_peaks)},
     {.title = "of each measure of the scenario", .each = EACH_MEASURE, .block = SHOWN_MEASURES, QUANTITY_ROWS(measures)},
     {.title = "each hinge of a vehicle, from ignition to exit", .each = EACH_HINGE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(held)},
+    {.title = "each drive of a multibody base, from ignition to exit", .each = EACH_DRIVE, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(driven)},
+    {.title = "each foot of a multibody base, from ignition to exit", .each = EACH_FOOT, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(standing)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
     {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
@@ -280,6 +296,17 @@ static const quantity resting_hinges[] = {
     {"equilibrium.%s.angle", "rad", "%s hinge: angle", HINGE(angle)},
     {"equilibrium.%s.torque", "N.m", "%s hinge: torque on the outboard body", HINGE(torque)},
 };
+#define RESTING(array, member) .at = QUANTITY_OF_EACH(ld_summary, equilibrium.array, member)
+static const quantity resting_drives[] = {
+    {"equilibrium.drive.%s.measured", "1", "drive %s: angle [rad] or length [m] that it follows", RESTING(drive, measured)},
+    {"equilibrium.drive.%s.torque", "1", "drive %s: torque [N m] or force [N] of drive or lock", RESTING(drive, torque)},
+};
+static const quantity resting_struts[] = {
+    {"equilibrium.strut.%s.force", "N", "strut %s: force of spring and actuator, pushing", .at = QUANTITY_EACH_OF(ld_summary, equilibrium.strut_force)},
+};
+static const quantity resting_feet[] = {
+    {"equilibrium.foot.%s.force", "N", "foot %s: vertical force of the ground", .at = QUANTITY_EACH_OF(ld_summary, equilibrium.foot_force)},
+};
 static const quantity energies[] = {
     {"energy.kinetic", "J", "kinetic energy of tube, tail and rocket, and of the vehicle", RUN(energy.kinetic)},
     {"energy.potential", "J", "potential energy of tube and tail in gravity", RUN(energy.potential)},
@@ -320,6 +347,10 @@ static const quantity_group run_groups[] = {
     {.title = "of each wheel of a vehicle", .each = EACH_WHEEL, .launch = true, WHEELS, QUANTITY_ROWS(resting_wheels)},
     {.title = "of its chassis", .each = EACH_VEHICLE, .launch = true, WHEELS, QUANTITY_ROWS(resting_chassis)},
     {.title = "of its hinges", .each = EACH_HINGE, .launch = true, WHEELS, QUANTITY_ROWS(resting_hinges)},
+    {.title = "of each wheel of a multibody base", .each = EACH_ROLLER, .launch = true, WHEELS, QUANTITY_ROWS(resting_wheels)},
+    {.title = "of each drive of a multibody base", .each = EACH_DRIVE, .launch = true, QUANTITY_ROWS(resting_drives)},
+    {.title = "of each strut", .each = EACH_STRUT, .launch = true, QUANTITY_ROWS(resting_struts)},
+    {.title = "of each foot", .each = EACH_FOOT, .launch = true, QUANTITY_ROWS(resting_feet)},
     {.title = "energy at the end", .launch = true, QUANTITY_ROWS(energies)},
     {.title = "works since the start", .launch = true, QUANTITY_ROWS(driving_works)},
     {.title = "works of a slot", .each = EACH_SLOT, .launch = true, QUANTITY_ROWS(slot_works)},
@@ -365,7 +396,8 @@ void rocket_clear(ld_rocket_summary *rocket, bool launched)
         [EACH_ADAPTOR] = LD_MAX_ADAPTORS,    [EACH_MEASURE] = LD_MAX_MEASURES,
         [EACH_STATION] = LD_MAX_STATIONS,    [EACH_SUPPORT] = LD_MAX_SUPPORTS,
         [EACH_SLIDE] = LD_MAX_SUPPORTS,      [EACH_HINGE] = HINGES,
-        [EACH_PARACHUTE] = LD_MAX_PARACHUTES};
+        [EACH_PARACHUTE] = LD_MAX_PARACHUTES, [EACH_DRIVE] = LD_MAX_DRIVES,
+        [EACH_FOOT] = LD_MAX_FEET};
     memset(rocket, 0, sizeof *rocket);
     for (int i = 0; i < rocket_quantities.groups; i++) {
         const quantity_group *group = &rocket_groups[i];

@@ -436,6 +436,35 @@ static void report_vehicle(const launcher_system *launcher, const launcher_outpu
     }
 }
 
+// Of a base of kind multibody.
+static void report_multibody(const launcher_system *launcher, const launcher_input *input,
+                             const launcher_output *out, const double *y,
+                             ld_equilibrium_summary *summary)
+{
+    base_instant instant;
+    const multibody_instant *now = &instant.multibody;
+    const ld_base *base = model_base(launcher->base.model);
+    const ld_mechanism *given = &base->mechanism;
+    if (!model_has_multibody(launcher->base.model))
+        return;
+    base_find(&launcher->base, &input->found, &out->base, y + launcher->base_at, &instant);
+    summary->wheel_count = base->vehicle.wheel_count;
+    for (int j = 0; j < summary->wheel_count; j++) {
+        const wheel_report *wheel = &now->marching.wheel[j];
+        summary->wheel[j].tyre_force = wheel->normal;
+        summary->wheel[j].tyre_deflection = wheel->deflection;
+        v3_store(summary->wheel[j].suspension, wheel->travel);
+    }
+    for (int i = 0; i < given->drive_count; i++) {
+        summary->drive[i].measured = now->drive[i].measured;
+        summary->drive[i].torque = now->drive[i].torque;
+    }
+    for (int i = 0; i < given->strut_count; i++)
+        summary->strut_force[i] = now->strut[i].spring.force + now->strut[i].push;
+    for (int i = 0; i < given->foot_count; i++)
+        summary->foot_force[i] = now->foot[i].normal;
+}
+
 static void report(const problem *the, const double *y, ld_equilibrium_summary *summary)
 {
     const launch_state *self = the->self;
@@ -455,6 +484,7 @@ static void report(const problem *the, const double *y, ld_equilibrium_summary *
     for (int i = 0; i < the->count; i++)
         summary->residual = fmax(summary->residual, fabs(r[i]));
     report_vehicle(&self->launcher, &out, y, summary);
+    report_multibody(&self->launcher, &input, &out, y, summary);
 }
 
 // Gravity [m/s2] in the axes of the undeformed tube on the base as it stands in y.

@@ -216,6 +216,59 @@ static void in_words(void **state)
     model_clear(&model);
 }
 
+// ---- summary
+
+static double line_mass(const ld_section *section, int count, double length)
+{
+    double mass = 0;
+    for (int i = 0; i < count; i++) {
+        double end = i + 1 < count ? section[i + 1].from : length;
+        mass += section[i].mass_per_length * (end - section[i].from);
+    }
+    return mass;
+}
+
+// In still air the feet carry all but the gauge beside; how drives and feet did from ignition to
+// exit is what the rows say.
+static void feet_and_drives_in_the_summary(void **state)
+{
+    (void)state;
+    static const char *const still[] = {"environment.wind=none", "run.output_step.tube=0.1 ms"};
+    ld_model model = read_text("include: ../tests/data/multibody/launcher.yaml\n", still, 2);
+    const ld_mechanism *given = &model.base.mechanism;
+    const ld_tubes *tubes = &model.tubes;
+    recorded_run run;
+    recorded_run_make(&run, &model);
+    double mass = line_mass(given->beam[0].section, given->beam[0].section_count, 0.8), force = 0;
+    for (int i = 0; i < given->body_count - 1; i++)
+        mass += given->body[i].mass;
+    mass += 2 * (line_mass(tubes->section, tubes->section_count, tubes->length) + tubes->tail.mass +
+                 model.rocket.full.mass);
+    for (int i = 0; i < given->foot_count; i++)
+        force += run.summary.equilibrium.foot_force[i];
+    CHECK_BELOW("feet and weight at rest (relative)", force / (mass * model.gravity) - 1, 1e-12);
+
+    const ld_rocket_summary *rocket = &run.summary.rocket[0];
+    size_t t = recorded_column(&run, "t"), foot = recorded_column(&run, "foot.rl.fy");
+    size_t error = recorded_column(&run, "drive.lift.error");
+    double peak = 0, least = INFINITY, sum = 0;
+    for (size_t i = 1; i < run.rows; i++) {
+        double now = recorded_value(&run, i, t), before = recorded_value(&run, i - 1, t);
+        if (before < 0 || now > rocket->t_rear)
+            continue;
+        double e = recorded_value(&run, i, error), e_0 = recorded_value(&run, i - 1, error);
+        peak = fmax(peak, recorded_value(&run, i, foot));
+        least = fmin(least, recorded_value(&run, i, foot));
+        sum += 0.5 * (now - before) * (e * e + e_0 * e_0);
+    }
+    CHECK_BELOW("largest force of a foot (relative)", rocket->foot[2].force_peak / peak - 1, 1e-6);
+    CHECK_BELOW("least one (relative)", rocket->foot[2].force_least / least - 1, 1e-6);
+    CHECK_BELOW("error of a drive (relative)",
+                rocket->drive[0].error_rms / sqrt(sum / rocket->t_rear) - 1, 2e-6);
+    recorded_run_free(&run);
+    model_clear(&model);
+}
+
 // ---- linearised
 
 static ld_simulation *simulation_of(const ld_model *model)
@@ -343,6 +396,7 @@ int main(void)
         cmocka_unit_test(on_a_moving_carrier),
         cmocka_unit_test(far_from_its_start),
         cmocka_unit_test(in_words),
+        cmocka_unit_test(feet_and_drives_in_the_summary),
         cmocka_unit_test(modes_of_a_loop),
         cmocka_unit_test(response_of_a_loop),
         cmocka_unit_test(a_slow_moment_bends_a_spring),
