@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "launchdyn/scenario.h"
+#include "math/matrices/dense.h"
 #include "scenario/scenario.h"
 #include "support/check.h"
 
@@ -106,6 +107,41 @@ void lumped_begin(lumped_launch *self, const ld_model *model, const lumped_base 
     self->locked = self->both = true;
     for (int i = 0; i < ROCKET_COORDINATES; i++)
         self->system.held[self->first + i] = i != ROCKET_ROLL;
+}
+
+static void accelerations_of(const lumped_launch *self, const int *coordinate, int count, double *a)
+{
+    double y_dot[2 * MOST_COORDINATES + MOST_EXTRA];
+    masses_rates(&self->system, self->t, self->y, y_dot, NULL);
+    for (int i = 0; i < count; i++)
+        a[i] = y_dot[self->system.coordinates + coordinate[i]];
+}
+
+void lumped_settle(lumped_launch *self, const int *coordinate, int count)
+{
+    const double h = 1e-6;
+    double a[8], side[2][8], J[64];
+    int pivot[8];
+    for (int turn = 0; turn < 8; turn++) {
+        accelerations_of(self, coordinate, count, a);
+        for (int j = 0; j < count; j++) {
+            double *q = &self->y[coordinate[j]], middle = *q;
+            for (int s = 0; s < 2; s++) {
+                *q = middle + (s ? h : -h);
+                accelerations_of(self, coordinate, count, side[s]);
+            }
+            *q = middle;
+            for (int i = 0; i < count; i++)
+                J[i * count + j] = (side[1][i] - side[0][i]) / (2 * h);
+        }
+        assert_int_equal(lu_factor(count, J, pivot), 0);
+        lu_solve(count, J, pivot, a);
+        for (int i = 0; i < count; i++)
+            self->y[coordinate[i]] -= a[i];
+    }
+    accelerations_of(self, coordinate, count, a);
+    for (int i = 0; i < count; i++)
+        CHECK_BELOW("acceleration at rest", fabs(a[i]), 1e-7);
 }
 
 // ---- on the way
@@ -260,16 +296,16 @@ int lumped_add_marker(lumped_base *base, double (*point)[3], const double at[3])
 void lumped_model(const char *name, const char *const *sets, size_t count, ld_model *model)
 {
     static const char *const rigid[] = {
-        "environment.wind=",
+        "environment.wind=none",
         "environment.atmosphere=none",
-        "rocket.aerodynamics=",
+        "rocket.aerodynamics=none",
         "rocket.empty=",
-        "rocket.eccentricity=",
-        "rocket.motor.misalignment=",
+        "rocket.eccentricity=0 0 m",
+        "rocket.motor.misalignment=0 0 deg",
         "rocket.contact.law=ideal",
         "rocket.contact.restitution=",
         "rocket.contact.friction=",
-        "tubes.guide=",
+        "tubes.guide=bore",
         "tubes.slot=none",
         "tubes.modes.bending=1",
         "tubes.modes.torsion=0",

@@ -45,6 +45,9 @@ typedef struct lumped_launch {
 // (NULL: zeros).
 void lumped_begin(lumped_launch *self, const ld_model *model, const lumped_base *base, double t,
                   double step, const double *q, const double *u, const double *z);
+// Puts coordinates of the base where they have no acceleration, by Newton's method from where they
+// are, without motion.
+void lumped_settle(lumped_launch *self, const int *coordinate, int count);
 // Goes on to an instant, or to the rocket's exit.
 void lumped_advance(lumped_launch *self, double t);
 
