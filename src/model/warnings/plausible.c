@@ -6,10 +6,10 @@
 #include "model/fields/field.h"
 #include "model/warnings/plausible_find.h"
 
-enum { TABLES = 6, MOST_RULES = 256, HINGES = 2 };
-static const plausible_rule *const tables[TABLES] = {plausible_of_tube,       plausible_of_base,
-                                                     plausible_of_rocket,     plausible_of_vehicle,
-                                                     plausible_of_stabiliser, plausible_of_run};
+enum { TABLES = 7, MOST_RULES = 256, HINGES = 2 };
+static const plausible_rule *const tables[TABLES] = {
+    plausible_of_tube,       plausible_of_base,      plausible_of_rocket, plausible_of_vehicle,
+    plausible_of_stabiliser, plausible_of_mechanism, plausible_of_run};
 
 // ---- the walk
 

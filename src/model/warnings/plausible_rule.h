@@ -60,7 +60,7 @@ typedef struct plausible_rule {
 
 // Rules end with a row without path.
 extern const plausible_rule plausible_of_tube[], plausible_of_base[], plausible_of_rocket[],
-    plausible_of_vehicle[], plausible_of_stabiliser[], plausible_of_run[];
+    plausible_of_vehicle[], plausible_of_stabiliser[], plausible_of_mechanism[], plausible_of_run[];
 
 // Of a rule that says nothing.
 static inline plausible_pair plausible_nothing(void)
