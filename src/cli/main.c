@@ -14,8 +14,9 @@ static const command commands[] = {
     {.name = "new",
      .arguments = "",
      .summary = "Write a commented first scenario that is ready to run",
-     .about = "The scenario has a rocket in a tube or on a rail, on the ground, a vehicle or a "
-              "ship. On a terminal, new asks for what no option sets. It never overwrites a file.",
+     .about = "The scenario has a rocket in a tube or on a rail, on the ground, a vehicle, a "
+              "ship, a trailer on jacks or a swinging link. On a terminal, new asks for what no "
+              "option sets. It never overwrites a file.",
      .examples = "launchdyn new --guide rail --base ship --out scenario.yaml|A rail on a ship\n"
                  "launchdyn new|Ask for everything",
      .run = command_new,

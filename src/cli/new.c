@@ -11,7 +11,7 @@
 
 enum { ANSWER = 1024 };
 
-static const char guides[] = "tube|rail", bases[] = "fixed|vehicle|ship";
+static const char guides[] = "tube|rail", bases[] = "fixed|vehicle|ship|trailer|suspended";
 
 typedef struct new_wishes {
     char *guide, *base, *out; // NULL: not given
@@ -21,7 +21,7 @@ typedef struct new_wishes {
 // Whether `word` is one of "a|b|c"; else complains.
 static bool is_one_of(const char *what, const char *word, const char *words)
 {
-    enum { MOST = 4 };
+    enum { MOST = 5 };
     char list[64], *rest = NULL;
     const char *names[MOST];
     size_t count = 0;
@@ -60,21 +60,39 @@ static char *ask(char *given, const char *question, const char *usual, char answ
     return answer;
 }
 
+static const char *text_of(const char *name, const char *which)
+{
+    size_t length = strlen(name);
+    const scenario_part *part = scenario_parts;
+    while (strncmp(part->name, name, length) != 0 || strcmp(part->name + length, which) != 0)
+        part++;
+    return part->text;
+}
+
 static void write_part(FILE *file, const char *name, const char *which)
 {
-    for (const scenario_part *part = scenario_parts; part->name; part++) {
-        size_t length = strlen(name);
-        if (strncmp(part->name, name, length) == 0 && strcmp(part->name + length, which) == 0)
-            fputs(part->text, file);
-    }
+    fputs(text_of(name, which), file);
+}
+
+// The guide; on a base of bodies with the name of the one that carries it.
+static void write_guide(FILE *file, const char *guide, bool on_body)
+{
+    const char *text = text_of("guide-", guide), *layout = strstr(text, "  layout:");
+    fprintf(file, "%.*s", (int)(layout - text), text);
+    if (on_body)
+        fputs("  on: cradle                             # the body that carries it\n", file);
+    fputs(layout, file);
 }
 
 static void write_scenario(FILE *file, const new_wishes *self)
 {
     static const char *const places[][2] = {{"fixed", "on the ground"},
                                             {"vehicle", "on a moving vehicle"},
-                                            {"ship", "on a ship in a seaway"}};
+                                            {"ship", "on a ship in a seaway"},
+                                            {"trailer", "on a trailer on jacks"},
+                                            {"suspended", "on a frame on a swinging link"}};
     const char *place = "";
+    bool moves = strcmp(self->base, "vehicle") == 0 || strcmp(self->base, "ship") == 0;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
         if (strcmp(places[i][0], self->base) == 0)
             place = places[i][1];
@@ -83,9 +101,9 @@ static void write_scenario(FILE *file, const new_wishes *self)
             strcmp(self->guide, "tube") == 0 ? "in a tube" : "on a rail", place);
     write_part(file, "air", "");
     write_part(file, "base-", self->base);
-    write_part(file, "guide-", self->guide);
+    write_guide(file, self->guide, !moves && strcmp(self->base, "fixed") != 0);
     write_part(file, "rocket", "");
-    write_part(file, "run-", strcmp(self->base, "fixed") == 0 ? "fixed" : "moving");
+    write_part(file, "run-", moves ? "moving" : "fixed");
     write_part(file, "study", "");
 }
 
@@ -131,8 +149,9 @@ static int make(new_wishes *self)
         ask(self->guide, "What guides the rocket: tube or rail?", "tube", self->answer[0]);
     if (!self->guide || !is_one_of("guide", self->guide, guides))
         return EXIT_INPUT;
-    self->base = ask(self->base, "What carries the guide: fixed, vehicle or ship?", "fixed",
-                     self->answer[1]);
+    self->base =
+        ask(self->base, "What carries the guide: fixed, vehicle, ship, trailer or suspended?",
+            "fixed", self->answer[1]);
     if (!self->base || !is_one_of("base", self->base, bases))
         return EXIT_INPUT;
     if (asks &&

@@ -392,12 +392,15 @@ const quantity_table cost_quantities = TABLE(cost_groups);
 
 void rocket_clear(ld_rocket_summary *rocket, bool launched)
 {
-    static const int most[EACH_COUNT] = {
-        [EACH_ADAPTOR] = LD_MAX_ADAPTORS,    [EACH_MEASURE] = LD_MAX_MEASURES,
-        [EACH_STATION] = LD_MAX_STATIONS,    [EACH_SUPPORT] = LD_MAX_SUPPORTS,
-        [EACH_SLIDE] = LD_MAX_SUPPORTS,      [EACH_HINGE] = HINGES,
-        [EACH_PARACHUTE] = LD_MAX_PARACHUTES, [EACH_DRIVE] = LD_MAX_DRIVES,
-        [EACH_FOOT] = LD_MAX_FEET};
+    static const int most[EACH_COUNT] = {[EACH_ADAPTOR] = LD_MAX_ADAPTORS,
+                                         [EACH_MEASURE] = LD_MAX_MEASURES,
+                                         [EACH_STATION] = LD_MAX_STATIONS,
+                                         [EACH_SUPPORT] = LD_MAX_SUPPORTS,
+                                         [EACH_SLIDE] = LD_MAX_SUPPORTS,
+                                         [EACH_HINGE] = HINGES,
+                                         [EACH_PARACHUTE] = LD_MAX_PARACHUTES,
+                                         [EACH_DRIVE] = LD_MAX_DRIVES,
+                                         [EACH_FOOT] = LD_MAX_FEET};
     memset(rocket, 0, sizeof *rocket);
     for (int i = 0; i < rocket_quantities.groups; i++) {
         const quantity_group *group = &rocket_groups[i];

@@ -14,7 +14,8 @@ static void one(const char *guide, const char *base, double least, double most)
     expect_in(shell.out, strcmp(guide, "rail") == 0 ? "# guide: a rail" : "# guide: a bore");
     expect_in(shell.out, strcmp(base, "fixed") == 0     ? "# base: fixed; launcher 60 deg up"
                          : strcmp(base, "vehicle") == 0 ? "# base: vehicle on 4 wheels"
-                                                        : "# base: prescribed, a ship");
+                         : strcmp(base, "ship") == 0    ? "# base: prescribed, a ship"
+                                                        : " on cradle, 0 deg up");
     assert_int_equal(run("launchdyn run --strict a.yaml -q --out out"), 0);
     assert_string_equal(shell.err, "");
     assert_int_equal(run("jq -r '.complete, (.notes | length), .rockets[0].tip_off.pitch_rate, "
@@ -45,6 +46,10 @@ static void test_all_combinations(void **state)
     one("tube", "fixed", -0.25, -0.2);
     one("tube", "vehicle", -0.26, -0.2);
     one("tube", "ship", -0.28, -0.2);
+    one("tube", "trailer", -0.26, -0.22);
+    one("tube", "suspended", -0.38, -0.3);
+    one("rail", "trailer", -0.23, -0.19);
+    one("rail", "suspended", -0.2, -0.1);
     one("rail", "fixed", -0.2, -0.15);
     one("rail", "vehicle", -0.21, -0.15);
     one("rail", "ship", -0.23, -0.15);
@@ -80,8 +85,9 @@ static void test_refusals(void **state)
             "/dev/null; [ $? = 2 ] && ls | cmp - names"),
         0);
     expect_in(shell.out, "the input ended before an answer; no file is written");
-    expect_complaint("launchdyn new --base boat", 2,
-                     "--base: expected one of fixed|vehicle|ship, found \"boat\"\n");
+    expect_complaint(
+        "launchdyn new --base boat", 2,
+        "--base: expected one of fixed|vehicle|ship|trailer|suspended, found \"boat\"\n");
     assert_int_equal(run("echo mine >a.yaml"), 0);
     expect_complaint("launchdyn new --out a.yaml", 2,
                      "a.yaml exists already; choose another name, new never overwrites a file\n");
