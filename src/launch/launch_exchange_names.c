@@ -53,7 +53,7 @@ static exchange_quantity name_state(const named_states *group, int i)
 #define WORK_NAME(place, name, is) [place] = {name, is},
 #define BASE_NAME(place, name, is) [POWER_COUNT + (place)] = {name, is},
 #define MARCHING_NAME(place, name, is)                                                             \
-    [(int)POWER_COUNT + (int)ORIENTATING_POWERS + (place)] = {name, is},
+    [(int)POWER_COUNT + (int)VEHICLE_BODY_POWERS + (place)] = {name, is},
 
 #define PART_NAME(place, name, is) [place] = {name, is},
 #define ROLLING_NAME(place, name, is) [(int)MECHANISM_POWERS + (place)] = {name, is},
@@ -67,7 +67,7 @@ static exchange_quantity name_work(const launcher_system *launcher, int i)
                                                                MARCHING_WORKS(ROLLING_NAME)};
     static const named_work work[POWER_COUNT + VEHICLE_POWERS] = {
         LAUNCHING_WORKS(WORK_NAME) OPEN_AIR_WORKS(WORK_NAME) PRESSURE_WORKS(WORK_NAME)
-            RECOIL_WORKS(WORK_NAME) ORIENTATING_WORKS(BASE_NAME) MARCHING_WORKS(MARCHING_NAME)
+            RECOIL_WORKS(WORK_NAME) VEHICLE_WORKS(BASE_NAME) MARCHING_WORKS(MARCHING_NAME)
                 JET_WORKS(BASE_NAME)};
     int launching = launcher->launching.work_count;
     int place = i < launching ? i : POWER_COUNT + i - launching;

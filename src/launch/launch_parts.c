@@ -17,7 +17,7 @@ void launch_watch_parts(ld_run *run, double t, const double *y)
     ld_rocket_summary *rocket = &run->summary.rocket[self->current];
     if (!at)
         return;
-    const mechanism_report *report = &at->base.report.multibody.mechanism.report;
+    const mechanism_report *report = &at->base.report.mechanism.report;
     for (int i = 0; i < given->drive_count; i++)
         launch_watch_hinge(&run->drive_watch[i], since, &report->hold[i], &rocket->drive[i]);
     for (int i = 0; i < given->foot_count; i++) {

@@ -179,12 +179,12 @@ void launch_watch_hinges(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     double since = t - self->t_ignition;
-    if (!base_as_vehicle(&self->launcher.base) || !self->phase.rocket || self->phase.passed[0] ||
+    if (!base_is_vehicle(&self->launcher.base) || !self->phase.rocket || self->phase.passed[0] ||
         !(since >= 0))
         return;
     const launcher_output *at = simulation_output(self, t, y);
     for (int i = 0; i < HINGES && at; i++)
-        launch_watch_hinge(&run->watch[i], since, &at->base.report.vehicle.hinge[i],
+        launch_watch_hinge(&run->watch[i], since, &at->base.report.mechanism.report.hold[i],
                            &run->summary.rocket[self->current].hinge[i]);
 }
 

@@ -387,8 +387,8 @@ typedef struct vehicle_moment {
 } vehicle_moment;
 
 #define AT(member) .at = QUANTITY_AT(vehicle_moment, member)
-#define ORIENTATING(place, name, is) {"work." name, "J", is, AT(work[place])},
-#define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
+#define BASE_WORK(place, name, is) {"work." name, "J", is, AT(work[place])},
+#define MARCHING(place, name, is) BASE_WORK(VEHICLE_BODY_POWERS + place, name, is)
 // clang-format off
 static const quantity clock[] = {
     {"t", "s", "time on the run's clock", AT(t)},
@@ -397,7 +397,7 @@ static const quantity energies[] = {
     {"energy.kinetic", "J", "kinetic energy of the vehicle", AT(kinetic)},
     {"energy.elastic", "J", "elastic energy of its suspensions", AT(elastic)},
 };
-static const quantity works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
+static const quantity works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
 static const quantity tube_works[] = {
     {"work.tube", "J", "work of the tube on it", AT(tube_work)},
 };

@@ -14,6 +14,7 @@
 #include "state/evaluation.h"
 #include "state/exit_figures.h"
 #include "state/launch_state.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/launching/launching_kinematics.h"
 
 enum { MAX_FREEDOMS = 12 + LD_MAX_MODAL + BASE_MOST_FREEDOMS };
@@ -415,24 +416,24 @@ static void guess_contacts(const launch_state *self, int i, int j, v3 pull, doub
 static void report_vehicle(const launcher_system *launcher, const launcher_output *out,
                            const double *y, ld_equilibrium_summary *summary)
 {
-    const vehicle_system *vehicle = base_as_vehicle(&launcher->base);
-    if (!vehicle)
+    if (!base_is_vehicle(&launcher->base))
         return;
+    const mechanism_system *vehicle = mechanism_of(&launcher->base);
     const double *base = y + launcher->base_at;
-    m3 A = q_matrix(q_from(base + ORIENTATING_QUATERNION));
-    summary->wheel_count = vehicle->marching.wheel_count;
+    m3 A = q_matrix(q_from(base + VEHICLE_QUATERNION));
+    summary->wheel_count = model_base(launcher->model)->vehicle.wheel_count;
     for (int j = 0; j < summary->wheel_count; j++) {
-        const wheel_report *wheel = &out->base.report.vehicle.marching.wheel[j];
+        const wheel_report *wheel = &out->base.report.marching.wheel[j];
         summary->wheel[j].tyre_force = wheel->normal;
         summary->wheel[j].tyre_deflection = wheel->deflection;
         v3_store(summary->wheel[j].suspension, wheel->travel);
     }
-    summary->chassis.y = base[ORIENTATING_R + 1];
+    summary->chassis.y = base[VEHICLE_R + 1];
     summary->chassis.pitch = asin(A.a[1][0]);
     summary->chassis.roll = atan2(-A.a[1][2], A.a[1][1]);
-    for (int i = 0; i < HINGES; i++) {
-        summary->hinge[i].angle = base[ORIENTATING_ANGLE + i];
-        summary->hinge[i].torque = base[ORIENTATING_Z + i];
+    for (int i = 0; i < vehicle->hold_count; i++) {
+        summary->hinge[i].angle = base[vehicle->hold[i].q];
+        summary->hinge[i].torque = base[vehicle->z_at + i];
     }
 }
 

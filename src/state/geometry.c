@@ -10,6 +10,7 @@
 #include "model/parts.h"
 #include "model/salvo.h"
 #include "state/geometry_arrays.h"
+#include "systems/mechanism/carried_tubes.h"
 
 // ---- tube ----
 
@@ -86,7 +87,8 @@ static void add_layout(geometry *all, const ld_tubes *tubes)
         geometry_add(all, "tubes.rear_end", "m", (size_t)count, 3,
                      "rear end of each tube, undeformed, axes of the elevation platform");
     for (int i = 0; i < count; i++)
-        v3_store(place + 3 * i, orientating_tube_place(&tubes->layout, i + 1));
+        v3_store(place + 3 * i,
+                 v3_add(v3_from(tubes->layout.first), carried_tube_row(&tubes->layout, i + 1)));
     double *empty = geometry_add(all, "tubes.empty", "1", (size_t)tubes->empty_count, 1,
                                  "numbers of the tubes without a rocket from the start");
     for (int i = 0; i < tubes->empty_count; i++)
@@ -196,7 +198,7 @@ static void add_base(geometry *all, const base_system *base)
         geometry_add_mechanism(all, base_as_multibody(base));
         return;
     }
-    if (!base_as_vehicle(base)) {
+    if (!base_is_vehicle(base)) {
         double mount[2] = {given->azimuth, given->elevation};
         geometry_add_row(all, "base.mount", "rad", 2, mount,
                          "tube against the base: azimuth, elevation");

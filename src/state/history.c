@@ -227,8 +227,8 @@ static const quantity energies[] = {
     {"energy.elastic", "J", "elastic energy of modes, supports and suspensions", AT(energy.elastic)},
 };
 #define LAUNCHING(place, name, is) {"work." name, "J", is, AT(energy.work[place])},
-#define ORIENTATING(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
-#define MARCHING(place, name, is) ORIENTATING(ORIENTATING_POWERS + place, name, is)
+#define BASE_WORK(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
+#define MARCHING(place, name, is) BASE_WORK(VEHICLE_BODY_POWERS + place, name, is)
 static const quantity driving_works[] = {DRIVING_WORKS(LAUNCHING)};
 static const quantity slot_works[] = {SLOT_WORKS(LAUNCHING)};
 static const quantity holding_works[] = {HOLDING_WORKS(LAUNCHING)};
@@ -236,11 +236,11 @@ static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
-static const quantity vehicle_works[] = {ORIENTATING_WORKS(ORIENTATING) MARCHING_WORKS(MARCHING)};
-#define ROLLING(place, name, is) ORIENTATING(MECHANISM_POWERS + place, name, is)
-static const quantity multibody_works[] = {MECHANISM_WORKS(ORIENTATING)};
+static const quantity vehicle_works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
+#define ROLLING(place, name, is) BASE_WORK(MECHANISM_POWERS + place, name, is)
+static const quantity multibody_works[] = {MECHANISM_WORKS(BASE_WORK)};
 static const quantity rolling_works[] = {MARCHING_WORKS(ROLLING)};
-static const quantity jet_works[] = {JET_WORKS(ORIENTATING)};
+static const quantity jet_works[] = {JET_WORKS(BASE_WORK)};
 static const quantity balance[] = {
     {"energy.residual", "J", "residual of the energy balance", AT(energy.residual)},
 };

@@ -8,6 +8,7 @@
 #include "model/blocks/firing.h"
 #include "model/blocks/platform.h"
 #include "model/parts.h"
+#include "systems/mechanism/carried_tubes.h"
 
 // How far apart the places of a course are [s]; between them it is a cubic. How far beyond the
 // table's end it continues [m]: so much may a mouth leave the way that it had when its rocket left.
@@ -24,8 +25,7 @@ void jets_free(jets *self)
 v3 jets_mouth(const ld_model *model, int tube, int launching)
 {
     const ld_layout *layout = &model_tubes(model)->layout;
-    v3 between =
-        v3_sub(orientating_tube_place(layout, tube), orientating_tube_place(layout, launching));
+    v3 between = v3_sub(carried_tube_row(layout, tube), carried_tube_row(layout, launching));
     return v3_add(between, v3_make(model_tubes(model)->length, 0, 0));
 }
 

@@ -512,35 +512,35 @@ static void say_chassis(instant *at)
     column_book *book = &at->run->book;
     const ld_vehicle *vehicle = &at->run->model->base.vehicle;
     const double *o = at->orientating;
-    m3 A = q_matrix(q_from(o + ORIENTATING_QUATERNION));
-    expect3(book, "chassis.", xyz, o + ORIENTATING_R);
+    m3 A = q_matrix(q_from(o + VEHICLE_QUATERNION));
+    expect3(book, "chassis.", xyz, o + VEHICLE_R);
     expect_pose_angles(book, "chassis", A);
-    expect3(book, "chassis.v", xyz, o + ORIENTATING_V);
-    expect3(book, "chassis.w", xyz, o + ORIENTATING_W);
+    expect3(book, "chassis.v", xyz, o + VEHICLE_V);
+    expect3(book, "chassis.w", xyz, o + VEHICLE_W);
     double heading = atan2(-A.a[2][0], A.a[0][0]);
-    double speed = o[ORIENTATING_V] * cos(heading) - o[ORIENTATING_V + 2] * sin(heading);
+    double speed = o[VEHICLE_V] * cos(heading) - o[VEHICLE_V + 2] * sin(heading);
     expect(book, "drive.speed", speed);
     expect(book, "drive.force",
            vehicle->drive.kp * (vehicle->speed - speed) +
                vehicle->drive.ki * at->marching[WHEEL_STATES * vehicle->wheel_count]);
 }
 
-static void say_hinges(instant *at, double power[ORIENTATING_POWERS])
+static void say_hinges(instant *at, double power[VEHICLE_BODY_POWERS])
 {
     column_book *book = &at->run->book;
     for (int i = 0; i < HINGES; i++) {
         const char *part = i ? "elevation" : "azimuth";
-        double rate = at->orientating[ORIENTATING_RATE + i];
+        double rate = at->orientating[VEHICLE_RATE + i];
         double torque = at->base.hinge[i].torque, friction = at->base.hinge[i].friction;
-        expect_of(book, part, "angle", at->orientating[ORIENTATING_ANGLE + i]);
+        expect_of(book, part, "angle", at->orientating[VEHICLE_ANGLE + i]);
         expect_of(book, part, "rate", rate);
         expect_of(book, part, "measured", at->base.hinge[i].measured);
         expect_of(book, part, "command", at->base.hinge[i].measured + at->base.hinge[i].error);
         expect_of(book, part, "error", at->base.hinge[i].error);
         expect_of(book, part, "torque", torque);
         expect_of(book, part, "friction", friction);
-        power[ORIENTATING_STABILISER] += torque * rate;
-        power[ORIENTATING_FRICTION] += friction * rate;
+        power[VEHICLE_STABILISERS] += torque * rate;
+        power[VEHICLE_FRICTION] += friction * rate;
     }
 }
 
@@ -564,9 +564,9 @@ static void say_wheel(instant *at, int i, double power[MARCHING_POWERS])
     expect_of(book, part, "along", at->base.wheel[i].along);
     expect_of(book, part, "side", at->base.wheel[i].side);
     // the carrier turns with the chassis
-    m3 A = q_matrix(q_from(o + ORIENTATING_QUATERNION));
-    moving chassis = {v3_from(o + ORIENTATING_R), v3_from(o + ORIENTATING_V),
-                      m3_apply(A, v3_from(o + ORIENTATING_W)), A};
+    m3 A = q_matrix(q_from(o + VEHICLE_QUATERNION));
+    moving chassis = {v3_from(o + VEHICLE_R), v3_from(o + VEHICLE_V),
+                      m3_apply(A, v3_from(o + VEHICLE_W)), A};
     v3 drift = m3_apply_transposed(A, v3_sub(v, velocity_at(&chassis, r)));
     v3 slip = v3_add(v, v3_cross(chassis.w, v3_make(0, height - r.y, 0)));
     double heading = atan2(-A.a[2][0], A.a[0][0]);
@@ -584,14 +584,14 @@ static void heights(const instant *at, double sum[2])
 {
     const ld_model *model = at->run->model;
     const double *o = at->orientating;
-    v3 r = v3_from(o + ORIENTATING_R);
-    m3 A = q_matrix(q_from(o + ORIENTATING_QUATERNION));
+    v3 r = v3_from(o + VEHICLE_R);
+    m3 A = q_matrix(q_from(o + VEHICLE_QUATERNION));
     sum[0] = sum[1] = 0;
     for (int i = 0; i < DENSE_BODIES; i++) {
         if (i > 0) {
             const ld_turret *turret =
                 i == 1 ? &model->platform.azimuth : &model->platform.elevation;
-            double angle = o[ORIENTATING_ANGLE + i - 1];
+            double angle = o[VEHICLE_ANGLE + i - 1];
             r = v3_add(r, m3_apply(A, v3_from(turret->hinge_at)));
             A = m3_mul(A, i == 1 ? m3_rotation_y(angle) : m3_rotation_z(angle));
         }
@@ -609,13 +609,13 @@ static void say_vehicle(instant *at, double power[LAUNCHER_MOST_WORKS])
     say_chassis(at);
     say_hinges(at, power + POWER_COUNT);
     for (int i = 0; i < at->run->model->base.vehicle.wheel_count; i++)
-        say_wheel(at, i, power + POWER_COUNT + ORIENTATING_POWERS);
+        say_wheel(at, i, power + POWER_COUNT + VEHICLE_BODY_POWERS);
 }
 
 // ---- energies and works
 
 #define BASE_WORK(place) [(int)POWER_COUNT + (int)(place)]
-#define WHEEL_WORK(place) [(int)POWER_COUNT + (int)ORIENTATING_POWERS + (int)(place)]
+#define WHEEL_WORK(place) [(int)POWER_COUNT + (int)VEHICLE_BODY_POWERS + (int)(place)]
 static const char *const work_names[LAUNCHER_MOST_WORKS] = {
     [POWER_THRUST] = "thrust",
     [POWER_GRAVITY_ROCKET] = "gravity_rocket",
@@ -631,9 +631,9 @@ static const char *const work_names[LAUNCHER_MOST_WORKS] = {
     [POWER_AIR] = "crossflow",
     [POWER_PRESSURE] = "pressure",
     [POWER_RECOIL] = "recoil",
-    BASE_WORK(ORIENTATING_STABILISER) = "stabilisers",
-    BASE_WORK(ORIENTATING_FRICTION) = "hinge_friction",
-    BASE_WORK(ORIENTATING_GRAVITY) = "gravity_platform",
+    BASE_WORK(VEHICLE_STABILISERS) = "stabilisers",
+    BASE_WORK(VEHICLE_FRICTION) = "hinge_friction",
+    BASE_WORK(VEHICLE_GRAVITY) = "gravity_platform",
     WHEEL_WORK(MARCHING_GRAVITY) = "gravity_wheels",
     WHEEL_WORK(MARCHING_SUSPENSION) = "suspension_damping",
     WHEEL_WORK(MARCHING_TYRE) = "tyre",
@@ -720,9 +720,9 @@ static void say_works(instant *at, const double *power)
             continue;
         if (run->rows > 0)
             run->work[i] += 0.5 * (power[i] + run->power[i]) * (at->t - run->t);
-        if (i == POWER_COUNT + ORIENTATING_GRAVITY)
+        if (i == POWER_COUNT + VEHICLE_GRAVITY)
             run->work[i] = -run->model->gravity * (sum[0] - run->height[0]);
-        if (i == POWER_COUNT + ORIENTATING_POWERS + MARCHING_GRAVITY)
+        if (i == POWER_COUNT + VEHICLE_BODY_POWERS + MARCHING_GRAVITY)
             run->work[i] = -run->model->gravity * (sum[1] - run->height[1]);
         expect_of(&run->book, "work", work_name(i), run->work[i]);
         run->power[i] = power[i];
@@ -758,7 +758,7 @@ static void load(instant *at)
     on->breech = at->run->model->rocket.start_at;
     on->breech_speed = at->self->phase.breech_speed;
     at->orientating = y + at->self->launcher.base_at;
-    at->marching = at->orientating + ORIENTATING_STATES;
+    at->marching = at->orientating + VEHICLE_BODY_STATES;
     if (at->run->model->base.kind != LD_BASE_VEHICLE) {
         dense_base_at(at->run->model, at->t, &on->base);
         return;
@@ -814,7 +814,7 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
                                       .marching = at.marching,
                                       .tube_force = v3_from(at.out.base_force),
                                       .tube_moment = v3_from(at.out.base_moment)};
-        memcpy(at.on.rest, self->rest.hinge, sizeof at.on.rest);
+        memcpy(at.on.rest, self->rest.hold, sizeof at.on.rest);
         assert_true(dense_vehicle_evaluate(&run->vehicle, &at.on, &at.base));
         say_vehicle(&at, power);
     }

@@ -108,8 +108,8 @@ static void other_conditions_are_seen(void **state)
     assert_true(SEEN_AFTER(&b, self->phase.touch_speed[0] *= 2));
     assert_true(SEEN_AFTER(&b, self->phase.passed[0] = true));
     assert_true(SEEN_AFTER(&b, self->phase.locked = false));
-    assert_true(SEEN_AFTER(&b, self->rest.hinge[HINGE_ELEVATION].angle += 1e-4));
-    assert_true(SEEN_AFTER(&b, self->rest.hinge[HINGE_ELEVATION].torque += 10));
+    assert_true(SEEN_AFTER(&b, self->rest.hold[HINGE_ELEVATION].angle += 1e-4));
+    assert_true(SEEN_AFTER(&b, self->rest.hold[HINGE_ELEVATION].torque += 10));
     assert_true(SEEN_AFTER(&b, self->launcher.base.disturbed = &none));
     assert_true(SEEN_AFTER(&b, self->piece = -1));
     assert_true(SEEN_AFTER(&b, self->piece = 0));

@@ -13,6 +13,7 @@
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/launching/launching_kinematics.h"
 
 static ld_model read_example(const char *file, const char *const *sets, size_t count)
@@ -177,9 +178,8 @@ static void momentum(const launch_state *self, const double *y, bool with_rocket
     const launching_layout *at = &tube->layout;
     const ld_tail *tail = &self->model->tubes.tail;
     const double *base = y + launcher->base_at;
-    const vehicle_system *vehicle = base_as_vehicle(&launcher->base);
-    ld_mstmm *chain = vehicle->of_tube[launcher->base.tube].chain;
-    ld_mstmm_momentum(chain, base, base + ORIENTATING_V, p, p + 3);
+    ld_mstmm *chain = mechanism_of(&launcher->base)->chain;
+    ld_mstmm_momentum(chain, base, base + VEHICLE_V, p, p + 3);
     m3 A_IR = q_matrix(q_from(y + at->quaternion));
     v3 r_R = v3_from(y + at->r), P = v3_from(p), H = v3_from(p + 3);
     const ld_section *section = &self->model->tubes.section[0];
@@ -235,8 +235,8 @@ static void momentum_is_kept(void **state)
     if (simulation_equilibrium(&launch.state, 0, y, &unused, &error))
         fail_msg("%s", error.text);
     simulation_move_with_base(&launch.state, 0, y);
-    static const double speed[ORIENTATING_SPEEDS] = {4, 0.3, -0.2, 0.05, 0.1, -0.08, 0.3, 0.2};
-    memcpy(y + launcher->base_at + ORIENTATING_V, speed, sizeof speed);
+    static const double speed[VEHICLE_SPEEDS] = {4, 0.3, -0.2, 0.05, 0.1, -0.08, 0.3, 0.2};
+    memcpy(y + launcher->base_at + VEHICLE_V, speed, sizeof speed);
     for (int i = 0; i < 3; i++) {
         y[at->v + i] += 0.2 * (i + 1);
         y[at->w + i] += 0.1 * (i - 1);

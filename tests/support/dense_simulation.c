@@ -10,7 +10,7 @@
 // w_B; of a vehicle also its states.
 enum {
     LAUNCH_MAX = 26 + 2 * DENSE_MAX_MODES,
-    STATE_MAX = LAUNCH_MAX + ORIENTATING_STATES + DENSE_MARCHING_STATES
+    STATE_MAX = LAUNCH_MAX + VEHICLE_BODY_STATES + DENSE_MARCHING_STATES
 };
 
 typedef struct launch_run {
@@ -18,7 +18,7 @@ typedef struct launch_run {
     dense_launch dense;
     bool on_vehicle, frictionless;
     dense_vehicle vehicle;
-    hinge_rest rest[HINGES];
+    hold_rest rest[HINGES];
     int size, rocket, platform, wheels; // count of numbers, where the rocket's and vehicle's begin
     double ignition;                    // [s] on the run's clock
     bool locked, passed[LD_MAX_ADAPTORS];
@@ -629,7 +629,7 @@ static bool start(launch_run *launch, double t, double *x)
     u[6 + launch->dense.mode_count] = launch->dense.line[0];
     u[7 + launch->dense.mode_count] = launch->dense.line[1];
     if (launch->on_vehicle)
-        x[launch->platform + ORIENTATING_QUATERNION] = 1;
+        x[launch->platform + VEHICLE_QUATERNION] = 1;
     hold_base(launch, t, x, &balance.on);
     if (model->run.start == LD_START_EQUILIBRIUM && !settle(launch, t, &balance, x, u))
         return false;
@@ -641,7 +641,7 @@ static bool start(launch_run *launch, double t, double *x)
     dense_launch_tip(&launch->dense, &state, &balance.on.base, tip);
     memcpy(launch->summary->equilibrium.tip_sag, tip, sizeof launch->summary->equilibrium.tip_sag);
     if (launch->on_vehicle) {
-        x[launch->platform + ORIENTATING_V] = model->base.vehicle.speed;
+        x[launch->platform + VEHICLE_V] = model->base.vehicle.speed;
         for (int i = 0; i < model->base.vehicle.wheel_count; i++)
             x[launch->wheels + WHEEL_STATES * i + WHEEL_V] = model->base.vehicle.speed;
     }
@@ -941,7 +941,7 @@ static void prepare(launch_run *launch, const ld_model *model, const flexible_tu
     if (launch->on_vehicle) {
         dense_vehicle_create(&launch->vehicle, model, model->firing[0].tube, NULL, 0);
         launch->platform = launch->size;
-        launch->wheels = launch->platform + ORIENTATING_STATES;
+        launch->wheels = launch->platform + VEHICLE_BODY_STATES;
         launch->size = launch->wheels + WHEEL_STATES * model->base.vehicle.wheel_count + 1;
     }
 }
@@ -980,7 +980,7 @@ static int by_modulus(const void *a, const void *b)
 static bool jacobian_of(launch_run *launch, double t, double *x, double *jacobian)
 {
     double side[2][STATE_MAX];
-    int torque = launch->platform + ORIENTATING_Z;
+    int torque = launch->platform + VEHICLE_Z;
     for (int k = 0; k < launch->size; k++) {
         // contacts are pressed in by micrometres, torques go to 1e4 N m
         double kept = x[k], h = k == torque || k == torque + 1 ? 1 : 1e-7;

@@ -9,7 +9,7 @@
 
 // The vehicle at one instant.
 typedef struct dense_instant {
-    double orientating[ORIENTATING_STATES], marching[DENSE_MARCHING_STATES];
+    double orientating[VEHICLE_BODY_STATES], marching[DENSE_MARCHING_STATES];
     dense_vehicle_output output;
 } dense_instant;
 

@@ -193,12 +193,12 @@ static m3 attitude(const double q[4])
 static void place_bodies(equations *eq)
 {
     const double *state = eq->input->orientating;
-    eq->body[0].r = v3_from(state + ORIENTATING_R);
-    eq->body[0].v = v3_from(state + ORIENTATING_V);
-    eq->body[0].A = attitude(state + ORIENTATING_QUATERNION);
-    eq->body[0].w = m3_apply(eq->body[0].A, v3_from(state + ORIENTATING_W));
+    eq->body[0].r = v3_from(state + VEHICLE_R);
+    eq->body[0].v = v3_from(state + VEHICLE_V);
+    eq->body[0].A = attitude(state + VEHICLE_QUATERNION);
+    eq->body[0].w = m3_apply(eq->body[0].A, v3_from(state + VEHICLE_W));
     for (int i = 0; i < HINGES; i++) {
-        double angle = state[ORIENTATING_ANGLE + i], rate = state[ORIENTATING_RATE + i];
+        double angle = state[VEHICLE_ANGLE + i], rate = state[VEHICLE_RATE + i];
         v3 arm = m3_apply(eq->body[i].A, v3_from(turret_of(eq->vehicle, i)->hinge_at));
         m3 turn = i == HINGE_AZIMUTH ? m3_rotation_y(angle) : m3_rotation_z(angle);
         eq->body[i + 1].r = v3_add(eq->body[i].r, arm);
@@ -337,10 +337,10 @@ static double ask(const equations *eq, int hinge, double e, double e_dot, double
     double kd = two->present ? two->rate_kp : given->kd;
     double ki = two->present ? two->rate_ki * two->kp : given->ki;
     double grows = ki * e + (two->present ? two->rate_ki * e_dot : 0);
-    double z = state[ORIENTATING_Z + hinge];
+    double z = state[VEHICLE_Z + hinge];
     *z_dot = 0;
     if (given->sample > 0 && !eq->input->frictionless)
-        return state[ORIENTATING_DRIVE + DRIVE_STATES * hinge + DRIVE_HELD];
+        return state[VEHICLE_DRIVE + DRIVE_STATES * hinge + DRIVE_HELD];
     if (fabs(z) < limit || z * grows <= 0)
         *z_dot = grows;
     return clip(kp * e + kd * e_dot + z, limit);
@@ -351,7 +351,7 @@ static double actuate(equations *eq, int hinge, double asked, double b_dot)
 {
     const ld_stabiliser *given = &turret_of(eq->vehicle, hinge)->stabiliser;
     const ld_gear *gear = &given->gear;
-    int at = ORIENTATING_DRIVE + DRIVE_STATES * hinge;
+    int at = VEHICLE_DRIVE + DRIVE_STATES * hinge;
     const double *drive = eq->input->orientating + at;
     double *rate = eq->output->orientating + at, torque = asked;
     if (given->bandwidth > 0) {
@@ -378,8 +378,8 @@ static void turn_hinge(equations *eq, int hinge)
     const ld_turret *turret = turret_of(eq->vehicle, hinge);
     const ld_stabiliser *stabiliser = &turret->stabiliser;
     const double *state = eq->input->orientating;
-    double b = state[ORIENTATING_ANGLE + hinge], b_dot = state[ORIENTATING_RATE + hinge];
-    double *z_dot = &eq->output->orientating[ORIENTATING_Z + hinge], measured_rate, command_rate;
+    double b = state[VEHICLE_ANGLE + hinge], b_dot = state[VEHICLE_RATE + hinge];
+    double *z_dot = &eq->output->orientating[VEHICLE_Z + hinge], measured_rate, command_rate;
     // errors
     double measured = measure(eq, hinge, &measured_rate);
     double command =
@@ -390,7 +390,7 @@ static void turn_hinge(equations *eq, int hinge)
     // torque
     double torque;
     if (turret->lock.present) {
-        const hinge_rest *rest = &eq->input->rest[hinge];
+        const hold_rest *rest = &eq->input->rest[hinge];
         torque = rest->torque - turret->lock.stiffness * (b - rest->angle) -
                  turret->lock.damping * b_dot;
         *z_dot = 0;
@@ -562,27 +562,26 @@ static bool solve(const equations *eq, double x[])
 static void write_rates(const equations *eq, const double x[])
 {
     dense_vehicle_output *output = eq->output;
-    const double *state = eq->input->orientating, *q = state + ORIENTATING_QUATERNION;
+    const double *state = eq->input->orientating, *q = state + VEHICLE_QUATERNION;
     for (int i = 0; i < DENSE_BODIES; i++) {
         output->acceleration[i] = v3_from(x + 6 * i);
         output->alpha[i] = v3_from(x + 6 * i + 3);
     }
     // chassis; A^T w_dot in I is the derivative of w in body axes too
     double *rate = output->orientating, w[3];
-    memcpy(w, state + ORIENTATING_W, sizeof w);
-    memcpy(rate + ORIENTATING_R, state + ORIENTATING_V, sizeof w);
-    rate[ORIENTATING_QUATERNION] = -0.5 * (q[1] * w[0] + q[2] * w[1] + q[3] * w[2]);
+    memcpy(w, state + VEHICLE_W, sizeof w);
+    memcpy(rate + VEHICLE_R, state + VEHICLE_V, sizeof w);
+    rate[VEHICLE_QUATERNION] = -0.5 * (q[1] * w[0] + q[2] * w[1] + q[3] * w[2]);
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
-        rate[ORIENTATING_QUATERNION + 1 + i] =
-            0.5 * (q[0] * w[i] + q[1 + j] * w[k] - q[1 + k] * w[j]);
+        rate[VEHICLE_QUATERNION + 1 + i] = 0.5 * (q[0] * w[i] + q[1 + j] * w[k] - q[1 + k] * w[j]);
     }
-    v3_store(rate + ORIENTATING_V, output->acceleration[DENSE_CHASSIS]);
-    v3_store(rate + ORIENTATING_W,
+    v3_store(rate + VEHICLE_V, output->acceleration[DENSE_CHASSIS]);
+    v3_store(rate + VEHICLE_W,
              m3_apply_transposed(eq->body[DENSE_CHASSIS].A, output->alpha[DENSE_CHASSIS]));
     for (int i = 0; i < HINGES; i++) {
-        rate[ORIENTATING_ANGLE + i] = state[ORIENTATING_RATE + i];
-        rate[ORIENTATING_RATE + i] =
+        rate[VEHICLE_ANGLE + i] = state[VEHICLE_RATE + i];
+        rate[VEHICLE_RATE + i] =
             v3_dot(hinge_axis(eq, i), v3_sub(output->alpha[i + 1], output->alpha[i]));
     }
     for (int i = 0; i < eq->vehicle->model->base.vehicle.wheel_count; i++) {
@@ -641,7 +640,7 @@ typedef struct balance {
     dense_vehicle_input input;
     double x;
     int n;
-    double orientating[ORIENTATING_STATES], marching[DENSE_MARCHING_STATES];
+    double orientating[VEHICLE_BODY_STATES], marching[DENSE_MARCHING_STATES];
     dense_vehicle_output output;
 } balance;
 
@@ -660,7 +659,7 @@ static void quaternion_about(double q[4], int axis, double angle)
 // the angle errors of the platform. (Nothing acts along, across or about the vertical.)
 static bool residual_of(balance *at, const double *u, double *residual)
 {
-    double *q = at->orientating + ORIENTATING_QUATERNION;
+    double *q = at->orientating + VEHICLE_QUATERNION;
     memset(at->orientating, 0, sizeof at->orientating);
     memset(at->marching, 0, sizeof at->marching);
     at->orientating[0] = at->x;
@@ -669,9 +668,9 @@ static bool residual_of(balance *at, const double *u, double *residual)
     quaternion_about(q, 2, u[PITCH]);
     quaternion_about(q, 0, u[ROLL]);
     for (int i = 0; i < HINGES; i++) {
-        at->orientating[ORIENTATING_ANGLE + i] = u[ANGLE + i];
-        at->orientating[ORIENTATING_Z + i] = u[TORQUE + i];
-        at->input.rest[i] = (hinge_rest){u[ANGLE + i], u[TORQUE + i]};
+        at->orientating[VEHICLE_ANGLE + i] = u[ANGLE + i];
+        at->orientating[VEHICLE_Z + i] = u[TORQUE + i];
+        at->input.rest[i] = (hold_rest){u[ANGLE + i], u[TORQUE + i]};
     }
     int wheels = (at->n - PLACE) / 3;
     for (int i = 0; i < wheels; i++)
@@ -681,12 +680,12 @@ static bool residual_of(balance *at, const double *u, double *residual)
     if (!dense_vehicle_evaluate(at->vehicle, &at->input, &at->output))
         return false;
     const double *rate = at->output.orientating;
-    residual[Y] = rate[ORIENTATING_V + 1];
-    residual[PITCH] = rate[ORIENTATING_W + 2];
-    residual[ROLL] = rate[ORIENTATING_W];
+    residual[Y] = rate[VEHICLE_V + 1];
+    residual[PITCH] = rate[VEHICLE_W + 2];
+    residual[ROLL] = rate[VEHICLE_W];
     for (int i = 0; i < HINGES; i++) {
         residual[ANGLE + i] = at->output.hinge[i].error;
-        residual[TORQUE + i] = rate[ORIENTATING_RATE + i];
+        residual[TORQUE + i] = rate[VEHICLE_RATE + i];
     }
     for (int i = 0; i < wheels; i++)
         memcpy(residual + PLACE + 3 * i, at->output.marching + WHEEL_STATES * i + WHEEL_V,
@@ -761,7 +760,7 @@ static bool find_balance(balance *at, double *u)
 
 bool dense_vehicle_equilibrium(const dense_vehicle *vehicle, double t, double x, v3 tube_force,
                                v3 tube_moment, double *orientating, double *marching,
-                               hinge_rest rest[HINGES], double *residual)
+                               hold_rest rest[HINGES], double *residual)
 {
     balance at = {.vehicle = vehicle,
                   .input = {.t = t,
@@ -780,7 +779,7 @@ bool dense_vehicle_equilibrium(const dense_vehicle *vehicle, double t, double x,
     memcpy(orientating, at.orientating, sizeof at.orientating);
     memcpy(marching, at.marching, (size_t)states * sizeof *marching);
     memcpy(rest, at.input.rest, sizeof at.input.rest);
-    *residual = largest(at.output.orientating, ORIENTATING_STATES);
+    *residual = largest(at.output.orientating, VEHICLE_BODY_STATES);
     *residual = fmax(*residual, largest(at.output.marching, states));
     return true;
 }

@@ -2,12 +2,12 @@
 // together by two revolute hinges with Lagrange multipliers (five rows each), wheels as mass
 // points, all in one dense system; every force as model.md, sections 6 and 7, words it.
 //
-// States and rates have the layout of systems/bases/orientating.h and systems/mechanism/marching.h;
+// States and rates have the layout of systems/bases/vehicle.h and systems/mechanism/marching.h;
 // no code of theirs is used. Roads: flat, sines, bumps.
 #ifndef LD_TESTS_SUPPORT_DENSE_VEHICLE_H
 #define LD_TESTS_SUPPORT_DENSE_VEHICLE_H
 
-#include "systems/bases/orientating.h"
+#include "systems/bases/vehicle.h"
 #include "systems/mechanism/marching.h"
 
 enum { DENSE_MARCHING_STATES = WHEEL_STATES * LD_MAX_WHEELS + 1 };
@@ -39,18 +39,18 @@ void dense_vehicle_free(dense_vehicle *vehicle);
 typedef struct dense_vehicle_input {
     double t;                   // [s]
     double command_at;          // [s] an instant on the stretch of the command tables that holds
-    const double *orientating;  // [ORIENTATING_STATES], with drives [ORIENTATING_MOST_STATES]
+    const double *orientating;  // [VEHICLE_BODY_STATES], with drives [VEHICLE_MOST_BODY_STATES]
     const double *marching;     // [WHEEL_STATES n + 1]
     v3 tube_force, tube_moment; // [N], [N m] on the platform, in T, about T's origin
     double jet;                 // [N] on the elevation platform, along -x of T
     v3 jet_at;                  // [m] where it acts, from T's origin, in T
-    hinge_rest rest[HINGES];    // of locked hinges
+    hold_rest rest[HINGES];     // of locked hinges
     bool frictionless;          // Coulomb friction off, drives as linear ones
     bool still;                 // the drive gives nothing (equilibrium)
 } dense_vehicle_input;
 
 typedef struct dense_vehicle_output {
-    double orientating[ORIENTATING_MOST_STATES]; // rates of the states
+    double orientating[VEHICLE_MOST_BODY_STATES]; // rates of the states
     double marching[DENSE_MARCHING_STATES];
     v3 acceleration[DENSE_BODIES], alpha[DENSE_BODIES]; // of the bodies' origins, in I
     base_frame tube;                                    // frame T
@@ -81,6 +81,6 @@ double dense_road_height(const ld_road *profile, double z, double x, double *slo
 // method fails; *residual: largest rate left [m/s2, rad/s2, N m/s].
 bool dense_vehicle_equilibrium(const dense_vehicle *vehicle, double t, double x, v3 tube_force,
                                v3 tube_moment, double *orientating, double *marching,
-                               hinge_rest rest[HINGES], double *residual);
+                               hold_rest rest[HINGES], double *residual);
 
 #endif

@@ -10,7 +10,7 @@
 #include "support/draw.h"
 #include "support/reference_model.h"
 #include "support/stabiliser_options.h"
-#include "systems/bases/multibody_base.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/mechanism/mechanism_loops.h"
 
 static bool heads(uint64_t *seed)
@@ -578,10 +578,10 @@ void draw_mechanism(uint64_t *seed, int kind, const mechanism_options *options, 
         draw_road(seed, &model->base.vehicle.road);
     base_frame carrier = STILL;
     if (options->carrier) {
-        multibody_base own = {.model = model};
+        mechanism_base own = {.model = model};
         base_system base = {.model = model, .own = &own};
         own.carrier.model = &model->base;
-        carrier = multibody_carrier(&base, 0);
+        carrier = mechanism_base_carrier(&base, 0);
     }
     draw_loops(seed, kind, options, &d, &carrier, model);
     if (options->elements)
@@ -716,11 +716,11 @@ bool draw_mechanism_state(uint64_t *seed, const dense_mechanism *dense, ld_model
     memset(c, 0, sizeof *c);
     c->t = base->drifts ? 0.05 * draw(seed) : draw(seed);
     c->linear = heads(seed);
-    base_frame carrier = multibody_carrier(base, c->t);
+    base_frame carrier = mechanism_base_carrier(base, c->t);
     dense_mechanism_input input = {
         .t = c->t, .state = c->state, .carrier = &carrier, .rest = c->rest.hold, .linear = true};
     draw_bodies(seed, dense, base->drifts ? 0.15 : 1.5, c->state);
-    const multibody_base *own = base->own;
+    const mechanism_base *own = base->own;
     if (mechanism_assemble(&own->of_tube[0], &carrier, c->state, NULL))
         return false;
     if (!dense_mechanism_evaluate(dense, &input, &now) || now.open > 1e-9)

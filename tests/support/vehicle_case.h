@@ -14,9 +14,9 @@
 
 typedef struct vehicle_case {
     double t;
-    double orientating[ORIENTATING_MOST_STATES], marching[DENSE_MARCHING_STATES];
+    double orientating[VEHICLE_MOST_BODY_STATES], marching[DENSE_MARCHING_STATES];
     v3 tube_force, tube_moment;
-    hinge_rest rest[HINGES];
+    hold_rest rest[HINGES];
     bool frictionless;
 } vehicle_case;
 
@@ -112,9 +112,9 @@ static inline void orient(uint64_t *seed, ld_model *model, m3 A, vehicle_case *c
         double shift = angle[i] + 0.03 * draw(seed) - command->data[1];
         for (size_t row = 0; row < command->rows; row++)
             command->data[2 * row + 1] += shift;
-        c->rest[i].angle = c->orientating[ORIENTATING_ANGLE + i] + 0.03 * draw(seed);
+        c->rest[i].angle = c->orientating[VEHICLE_ANGLE + i] + 0.03 * draw(seed);
         c->rest[i].torque = 3e4 * draw(seed);
-        c->orientating[ORIENTATING_Z + i] = 1.3 * turret[i]->stabiliser.torque_limit * draw(seed);
+        c->orientating[VEHICLE_Z + i] = 1.3 * turret[i]->stabiliser.torque_limit * draw(seed);
     }
 }
 
@@ -125,11 +125,11 @@ static inline void drive(uint64_t *seed, const ld_platform *platform, double *o)
     const ld_turret *turret[HINGES] = {&platform->azimuth, &platform->elevation};
     for (int i = 0; i < HINGES; i++) {
         const ld_stabiliser *given = &turret[i]->stabiliser;
-        double *own = o + ORIENTATING_DRIVE + DRIVE_STATES * i;
+        double *own = o + VEHICLE_DRIVE + DRIVE_STATES * i;
         for (int k = DRIVE_TORQUE; k <= DRIVE_COMPUTED; k++)
             own[k] = given->torque_limit * draw(seed);
         own[DRIVE_TWIST] = given->gear.backlash * draw(seed) + 1e-4 * draw(seed);
-        own[DRIVE_RATE] = o[ORIENTATING_RATE + i] + 1e-2 * draw(seed);
+        own[DRIVE_RATE] = o[VEHICLE_RATE + i] + 1e-2 * draw(seed);
     }
 }
 
@@ -146,16 +146,16 @@ static inline void draw_vehicle_state(uint64_t *seed, ld_model *model, vehicle_c
     m3 A = m3_mul(m3_rotation_y(heading), m3_mul(m3_rotation_z(pitch), m3_rotation_x(roll)));
     quat q = q_from_matrix(A);
     v3 r = draw_v3(seed, 3), v = draw_v3(seed, 10), w = draw_v3(seed, 2);
-    v3_store(o + ORIENTATING_R, r);
-    memcpy(o + ORIENTATING_QUATERNION, &q, sizeof q);
-    v3_store(o + ORIENTATING_V, v);
-    v3_store(o + ORIENTATING_W, w);
+    v3_store(o + VEHICLE_R, r);
+    memcpy(o + VEHICLE_QUATERNION, &q, sizeof q);
+    v3_store(o + VEHICLE_V, v);
+    v3_store(o + VEHICLE_W, w);
     for (int i = 0; i < HINGES; i++) {
-        o[ORIENTATING_ANGLE + i] = (i == 0 ? 3 : 0.7) * draw(seed);
+        o[VEHICLE_ANGLE + i] = (i == 0 ? 3 : 0.7) * draw(seed);
         double rate = draw(seed); // slow ones for the friction
-        o[ORIENTATING_RATE + i] = rate * (draw(seed) > 0 ? 1 : 2e-3);
+        o[VEHICLE_RATE + i] = rate * (draw(seed) > 0 ? 1 : 2e-3);
     }
-    m3 turn = m3_mul(m3_rotation_y(o[ORIENTATING_ANGLE]), m3_rotation_z(o[ORIENTATING_ANGLE + 1]));
+    m3 turn = m3_mul(m3_rotation_y(o[VEHICLE_ANGLE]), m3_rotation_z(o[VEHICLE_ANGLE + 1]));
     orient(seed, model, m3_mul(A, turn), c);
     drive(seed, &model->platform, o);
     // wheels about their mounts and about touching the road

@@ -7,15 +7,15 @@
 #include "model/model.h"
 #include "support/check.h"
 #include "support/reference_model.h"
-#include "systems/bases/orientating.h"
+#include "support/vehicle_bodies.h"
 
 static const double J = 800, C = 900, W = 0.02; // [kg m2], [N m s/rad] friction, [rad/s]
 
 typedef struct fixture {
     ld_model model;
-    orientating_system system;
+    vehicle_bodies system;
     ld_stabiliser *given; // the elevation's
-    double state[ORIENTATING_MOST_STATES];
+    double state[VEHICLE_MOST_BODY_STATES];
 } fixture;
 
 static void set_up(fixture *f)
@@ -47,27 +47,27 @@ static void set_up(fixture *f)
 static void begin(fixture *f)
 {
     ld_error error;
-    if (orientating_build(&f->system, &f->model, 1, NULL, 0, &error))
+    if (vehicle_bodies_build(&f->system, &f->model, 1, NULL, 0, &error))
         fail_msg("%s", error.text);
     memset(f->state, 0, sizeof f->state);
-    f->state[ORIENTATING_QUATERNION] = 1;
-    f->state[ORIENTATING_W + 2] = W;
+    f->state[VEHICLE_QUATERNION] = 1;
+    f->state[VEHICLE_W + 2] = W;
 }
 
 static void tear_down(fixture *f)
 {
-    orientating_free(&f->system);
+    vehicle_bodies_free(&f->system);
     reference_model_free(&f->model);
 }
 
 static int rhs(double t, const double *y, double *y_dot, void *user)
 {
     const fixture *f = user;
-    const orientating_input input = {0};
-    orientating_motion motion;
-    orientating_output output;
-    orientating_motion_at(&f->system, t, y, &motion);
-    return orientating_evaluate(&f->system, &input, y, &motion, y_dot, &output);
+    const vehicle_input input = {0};
+    vehicle_motion motion;
+    vehicle_output output;
+    vehicle_bodies_move(&f->system, t, y, &motion);
+    return vehicle_bodies_evaluate(&f->system, &input, y, &motion, y_dot, &output);
 }
 
 // Continues from time `from` to time `to`.
@@ -75,7 +75,7 @@ static void follow(fixture *f, double from, double to)
 {
     ld_error error;
     integrator *stepper;
-    double atol[ORIENTATING_MOST_STATES];
+    double atol[VEHICLE_MOST_BODY_STATES];
     for (int i = 0; i < f->system.state_count; i++)
         atol[i] = 1e-13;
     integrator_settings settings = {.n = (size_t)f->system.state_count,
@@ -118,19 +118,19 @@ static void go_on(int n, double A[MOST][MOST], double t, double *x)
 
 static hinge_report hinge_of(const fixture *f, double t)
 {
-    orientating_motion motion;
-    orientating_output output;
-    double unused[ORIENTATING_MOST_STATES];
-    const orientating_input input = {0};
-    orientating_motion_at(&f->system, t, f->state, &motion);
-    orientating_evaluate(&f->system, &input, f->state, &motion, unused, &output);
+    vehicle_motion motion;
+    vehicle_output output;
+    double unused[VEHICLE_MOST_BODY_STATES];
+    const vehicle_input input = {0};
+    vehicle_bodies_move(&f->system, t, f->state, &motion);
+    vehicle_bodies_evaluate(&f->system, &input, f->state, &motion, unused, &output);
     return motion.hinge[HINGE_ELEVATION];
 }
 
 // The elevation's drive.
 static double *drive_of(fixture *f)
 {
-    return f->state + ORIENTATING_DRIVE + HINGE_ELEVATION * DRIVE_STATES;
+    return f->state + VEHICLE_DRIVE + HINGE_ELEVATION * DRIVE_STATES;
 }
 
 // The platform from now on for 0.4 s against x' = A x of n unknowns, the first three of which are
@@ -145,8 +145,8 @@ static double compare(fixture *f, int n, double A[MOST][MOST], double *x)
         const hinge_report hinge = hinge_of(f, 1);
         pitch = fmax(pitch, fabs(hinge.measured - x[0]));
         rate = fmax(rate, fabs(hinge.measured_rate - x[1]));
-        torque = fmax(torque, fabs(f->state[ORIENTATING_Z + HINGE_ELEVATION] - x[2]));
-        if (f->system.state_count > ORIENTATING_DRIVE)
+        torque = fmax(torque, fabs(f->state[VEHICLE_Z + HINGE_ELEVATION] - x[2]));
+        if (f->system.state_count > VEHICLE_DRIVE)
             torque = fmax(torque, fabs(drive_of(f)[DRIVE_TORQUE] - x[3]));
         largest = fmax(largest, fabs(hinge.error));
     }
@@ -175,7 +175,7 @@ static void feedforward(void **context)
         double x[MOST] = {0, W, 0, 1}, drag = (C - share[k] * kd) * W / J;
         double A[MOST][MOST] = {{0, 1}, {-kp / J, -(kd + C) / J, 1 / J, drag}, {-ki}, {0}};
         if (k == 2) // nothing drags: at rest in I it stays there
-            x[1] = 0, f.state[ORIENTATING_RATE + HINGE_ELEVATION] = -W;
+            x[1] = 0, f.state[VEHICLE_RATE + HINGE_ELEVATION] = -W;
         double error = compare(&f, 4, A, x);
         if (k == 2)
             CHECK_BELOW("error without drag [rad]", error, 1e-14);
@@ -206,7 +206,7 @@ static void loops(void **context)
         double rate = 2 * 3.14159265358979324 * 12;
         f.given->bandwidth = lags ? 12 : 0;
         begin(&f);
-        orientating_rest(&f.system, f.state);
+        vehicle_bodies_rest(&f.system, f.state);
         double x[MOST] = {0, W, 0, 0, 1};
         if (lags) { // pitch, rate, z, torque, 1
             double A[MOST][MOST] = {{0, 1},
@@ -241,8 +241,8 @@ static void ramp(double sign)
     f.given->command.data[1] = sign * asked / 8e5;
     f.model.platform.elevation.friction.viscous = 0;
     begin(&f);
-    f.state[ORIENTATING_W + 2] = 0;
-    orientating_rest(&f.system, f.state);
+    f.state[VEHICLE_W + 2] = 0;
+    vehicle_bodies_rest(&f.system, f.state);
     double corner = (asked - 4e5 / rate) / 4e5, worst = 0;
     for (int i = 0; i < 20; i++) {
         double t = 2e-3 * (i + 1), expected = 4e5 * t;
@@ -270,7 +270,7 @@ static void let_go(fixture *f)
 {
     f->model.platform.elevation.friction.viscous = 0;
     begin(f);
-    f->state[ORIENTATING_W + 2] = 0;
+    f->state[VEHICLE_W + 2] = 0;
 }
 
 // A step of the command, 2 mrad, by a sampled PID with a delay: between the instants the torque
@@ -292,9 +292,9 @@ static void sampled(void **context)
         for (int n = 1; n <= 60; n++) {
             // the equations' way, until sample n has been taken
             while (t < n * T) {
-                double next = orientating_next_sample(&f.system, t);
+                double next = vehicle_bodies_next_sample(&f.system, t);
                 follow(&f, t, next);
-                orientating_sample(&f.system, next, f.state);
+                vehicle_bodies_sample(&f.system, next, f.state);
                 t = next;
             }
             // by hand: until the torque of sample n - 1 comes, and on
@@ -311,7 +311,7 @@ static void sampled(void **context)
             const hinge_report hinge = hinge_of(&f, t);
             worst = fmax(worst, fabs(hinge.measured - angle));
             worst = fmax(worst, fabs(hinge.measured_rate - rate) * T);
-            worst = fmax(worst, fabs(f.state[ORIENTATING_Z + HINGE_ELEVATION] - z) / kp);
+            worst = fmax(worst, fabs(f.state[VEHICLE_Z + HINGE_ELEVATION] - z) / kp);
         }
         printf("  delay %g ms: after %g ms at %.4g mrad\n", 1e3 * d, 1e3 * t, 1e3 * angle);
         CHECK_BELOW("angle, rate x period, z/kp [rad]", worst, 1e-12);
@@ -336,7 +336,7 @@ static void sampled_on_corners(void **context)
     double angle = 0, rate = 0, held = 0, worst = 0, torque = 0;
     for (int n = 1; n <= SAMPLES; n++) {
         follow(&f, (n - 1) * T, n * T);
-        orientating_sample(&f.system, n * T, f.state);
+        vehicle_bodies_sample(&f.system, n * T, f.state);
         angle += rate * T + 0.5 * held / J * T * T;
         rate += held / J * T;
         int along = n < BEGIN ? 0 : n < END ? n - BEGIN : END - BEGIN;
@@ -406,7 +406,7 @@ static void two_masses(void **context)
     f.given->gear = (ld_gear){true, k, d, motor, 0};
     f.given->command.data[1] = step;
     begin(&f);
-    orientating_rest(&f.system, f.state);
+    vehicle_bodies_rest(&f.system, f.state);
     // pitch, its rate, the gear's twist, the motor's rate against the base, 1
     double x[MOST] = {0, W, 0, 0, 1}, angles = 0, rates = 0;
     double A[MOST][MOST] = {
@@ -443,7 +443,7 @@ static void free_travel(void **context)
     f.given->gear = (ld_gear){true, k, 0, motor, backlash};
     f.given->command.data[1] = -0.01;
     let_go(&f);
-    orientating_rest(&f.system, f.state);
+    vehicle_bodies_rest(&f.system, f.state);
     double touch = sqrt(2 * backlash * motor / push), speed = push / motor * touch;
     double omega = sqrt(k / motor), twist = 0, torque = 0, t = 0;
     CHECK_NEAR("at the start [rad]", drive_of(&f)[DRIVE_TWIST], 0.5 * backlash, 1e-15);
@@ -473,7 +473,7 @@ static void parting(void **context)
     set_up(&f);
     f.given->gear = (ld_gear){true, 1e6, 1e4, 200, 1e-3};
     begin(&f);
-    f.state[ORIENTATING_W + 2] = 0;
+    f.state[VEHICLE_W + 2] = 0;
     static const struct {
         double twist, rate, torque;
     } row[] = {{0.7e-3, 0.01, 300}, {0.7e-3, -0.01, 100},  {0.7e-3, -0.03, 0}, {0.4e-3, 0.5, 0},

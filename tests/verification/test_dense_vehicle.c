@@ -14,7 +14,7 @@ static const double degree = 3.14159265358979323846 / 180;
 static vehicle_case later(const vehicle_case *c, const dense_vehicle_output *output, double h)
 {
     vehicle_case next = *c;
-    for (int i = 0; i < ORIENTATING_STATES; i++)
+    for (int i = 0; i < VEHICLE_BODY_STATES; i++)
         next.orientating[i] += h * output->orientating[i];
     for (int i = 0; i < DENSE_MARCHING_STATES; i++)
         next.marching[i] += h * output->marching[i];
@@ -71,8 +71,8 @@ static void energy_and_kinematics_of_random_states(void **state)
 typedef struct parked {
     ld_model model;
     dense_vehicle vehicle;
-    double orientating[ORIENTATING_STATES], marching[DENSE_MARCHING_STATES];
-    hinge_rest rest[HINGES];
+    double orientating[VEHICLE_BODY_STATES], marching[DENSE_MARCHING_STATES];
+    hold_rest rest[HINGES];
     double residual;
 } parked;
 
@@ -119,20 +119,20 @@ static void equilibrium_of_the_reference_vehicle(void **state)
 
 // Small changes of the state: chassis' place (0-2) and turning (3-5), then the rest of the
 // orientating state from the hinge angles on, then the marching state.
-enum { HINGE_CHANGES = ORIENTATING_STATES - ORIENTATING_ANGLE, WHEEL_CHANGES = 6 + HINGE_CHANGES };
+enum { HINGE_CHANGES = VEHICLE_BODY_STATES - VEHICLE_ANGLE, WHEEL_CHANGES = 6 + HINGE_CHANGES };
 enum { CHANGES = WHEEL_CHANGES + 6 * WHEEL_STATES + 1 };
 
 static void displace(int k, double change, double *o, double *m)
 {
     if (k < 3)
-        o[ORIENTATING_R + k] += change;
+        o[VEHICLE_R + k] += change;
     else if (k < 6) {
         quat turn = {1, k == 3 ? 0.5 * change : 0, k == 4 ? 0.5 * change : 0,
                      k == 5 ? 0.5 * change : 0};
-        quat q = q_multiply(q_from(o + ORIENTATING_QUATERNION), turn);
-        memcpy(o + ORIENTATING_QUATERNION, &q, sizeof q);
+        quat q = q_multiply(q_from(o + VEHICLE_QUATERNION), turn);
+        memcpy(o + VEHICLE_QUATERNION, &q, sizeof q);
     } else if (k < WHEEL_CHANGES)
-        o[ORIENTATING_ANGLE + k - 6] += change;
+        o[VEHICLE_ANGLE + k - 6] += change;
     else
         m[k - WHEEL_CHANGES] += change;
 }
@@ -140,15 +140,15 @@ static void displace(int k, double change, double *o, double *m)
 // Rates of the changes about the equilibrium, where every rate is zero.
 static void rates_of(const parked *at, int k, double change, double *rate)
 {
-    double o[ORIENTATING_STATES], m[DENSE_MARCHING_STATES];
+    double o[VEHICLE_BODY_STATES], m[DENSE_MARCHING_STATES];
     dense_vehicle_output output;
     memcpy(o, at->orientating, sizeof o);
     memcpy(m, at->marching, sizeof m);
     displace(k, change, o, m);
     dense_vehicle_input input = {.orientating = o, .marching = m, .frictionless = true};
     assert_true(dense_vehicle_evaluate(&at->vehicle, &input, &output));
-    memcpy(rate, o + ORIENTATING_V, 6 * sizeof *rate);
-    memcpy(rate + 6, output.orientating + ORIENTATING_ANGLE, HINGE_CHANGES * sizeof *rate);
+    memcpy(rate, o + VEHICLE_V, 6 * sizeof *rate);
+    memcpy(rate + 6, output.orientating + VEHICLE_ANGLE, HINGE_CHANGES * sizeof *rate);
     memcpy(rate + WHEEL_CHANGES, output.marching, (6 * WHEEL_STATES + 1) * sizeof *rate);
 }
 

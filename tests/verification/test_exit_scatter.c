@@ -221,7 +221,7 @@ static void rigid_roll(const launch_state *state, const linear_system *system, d
     const launching_layout *at = &state->launcher.launching.layout;
     const double *y = system->y;
     v3 axis = v3_make(1, 0, 0);
-    v3 arm = v3_sub(v3_from(y + at->r), v3_from(y + state->launcher.base_at + ORIENTATING_R));
+    v3 arm = v3_sub(v3_from(y + at->r), v3_from(y + state->launcher.base_at + VEHICLE_R));
     memset(change, 0, (size_t)system->count * sizeof *change);
     v3_store(change, v3_cross(axis, arm));
     v3_store(change + 3, m3_apply_transposed(q_matrix(q_from(y + at->quaternion)), axis));

@@ -178,7 +178,7 @@ static void compare_chassis(const rows *kept, const double *row, const dense_ins
 {
     static const char *const place[] = {"x", "y", "z", "yaw", "pitch", "roll"};
     static const char *const speed[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
-    const double *state = dense->orientating, *q = state + ORIENTATING_QUATERNION;
+    const double *state = dense->orientating, *q = state + VEHICLE_QUATERNION;
     // angles of Ry(yaw) Rz(pitch) Rx(roll) from the matrix' first column and middle row
     double angle[6] = {state[0],
                        state[1],
@@ -188,8 +188,7 @@ static void compare_chassis(const rows *kept, const double *row, const dense_ins
                        atan2(2 * (q[0] * q[1] - q[2] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]))};
     for (int i = 0; i < 6; i++) {
         add_difference(&worst->place, value(kept, row, "chassis", place[i]), angle[i]);
-        add_difference(&worst->speed, value(kept, row, "chassis", speed[i]),
-                       state[ORIENTATING_V + i]);
+        add_difference(&worst->speed, value(kept, row, "chassis", speed[i]), state[VEHICLE_V + i]);
     }
 }
 
@@ -199,11 +198,11 @@ static void compare_hinges(const rows *kept, const double *row, const dense_inst
     static const char *const hinge[HINGES] = {"azimuth", "elevation"};
     for (int i = 0; i < HINGES; i++) {
         add_difference(&worst->place, value(kept, row, hinge[i], "angle"),
-                       dense->orientating[ORIENTATING_ANGLE + i]);
+                       dense->orientating[VEHICLE_ANGLE + i]);
         add_difference(&worst->place, value(kept, row, hinge[i], "measured"),
                        dense->output.hinge[i].measured);
         add_difference(&worst->speed, value(kept, row, hinge[i], "rate"),
-                       dense->orientating[ORIENTATING_RATE + i]);
+                       dense->orientating[VEHICLE_RATE + i]);
         add_difference(&worst->force, value(kept, row, hinge[i], "torque"),
                        dense->output.hinge[i].torque);
         add_difference(&worst->force, value(kept, row, hinge[i], "friction"),
@@ -262,7 +261,7 @@ static void compare_equilibrium(const ld_vehicle *vehicle, const ld_equilibrium_
         add_difference(&place, summary->wheel[i].suspension[2], start->output.wheel[i].travel.z);
     }
     for (int i = 0; i < HINGES; i++) {
-        add_difference(&place, summary->hinge[i].angle, start->orientating[ORIENTATING_ANGLE + i]);
+        add_difference(&place, summary->hinge[i].angle, start->orientating[VEHICLE_ANGLE + i]);
         add_difference(&force, summary->hinge[i].torque, start->output.hinge[i].torque);
     }
     add_difference(&force, summary->lock_force, dense->equilibrium.lock_force);

@@ -8,7 +8,7 @@
 #include "model/model.h"
 #include "support/mechanism_case.h"
 #include "support/reference_model.h"
-#include "systems/bases/multibody_base.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/mechanism/mechanism_loops.h"
 
 static const double TWO_PI = 6.283185307179586476925;
@@ -74,7 +74,7 @@ static double differ_v3(v3 a, v3 b, double size)
     return differ(0, v3_norm(v3_sub(a, b)), size);
 }
 
-static void compare_reports(const dense_mechanism *dense, const multibody_report *report,
+static void compare_reports(const dense_mechanism *dense, const base_report *report,
                             const dense_mechanism_output *out, differences *worst)
 {
     const ld_mechanism *given = dense->given;
@@ -129,7 +129,7 @@ static void compare_joints(const mechanism_system *own, const mechanism_motion *
     joint_load load[LD_MAX_JOINTS];
     const ld_mechanism *given = own->given;
     double size = 1;
-    mechanism_joint_loads(own, motion, output->rate, &output->report.multibody.mechanism, load);
+    mechanism_joint_loads(own, motion, output->rate, &output->report.mechanism, load);
     for (int i = 0; i < given->joint_count; i++)
         size = fmax(size, fmax(v3_norm(out->joint[i].force), v3_norm(out->joint[i].moment)));
     for (int i = 0; i < given->joint_count; i++) {
@@ -223,7 +223,7 @@ static void compare(const base_system *base, const dense_mechanism *dense, mecha
     double kinetic = base->kind->dynamics->kinetic_energy(base, &found, c->state);
     dense_mechanism_input input = {.t = c->t,
                                    .state = c->state,
-                                   .carrier = &found.multibody.carrier,
+                                   .carrier = &found.mechanism.carrier,
                                    .tube_force = c->tube_force,
                                    .tube_moment = c->tube_moment,
                                    .rest = c->rest.hold,
@@ -241,9 +241,8 @@ static void compare(const base_system *base, const dense_mechanism *dense, mecha
     note(&worst->frame, differ_v3(tube.v, out.tube.v, 1));
     note(&worst->frame, differ_v3(tube.w, out.tube.w, 1));
     note(&worst->frame, differ_all(9, tube.A.a[0], out.tube.A.a[0], 1));
-    compare_reports(dense, &own.report.multibody, &out, worst);
-    const multibody_base *of = base->own;
-    compare_joints(&of->of_tube[0], &found.multibody, &own, &out, worst);
+    compare_reports(dense, &own.report, &out, worst);
+    compare_joints(mechanism_of(base), &found.mechanism, &own, &out, worst);
     note(&worst->closure, out.open);
     note(&worst->consistency,
          out.inconsistent / fmax(1, largest(dense->u_count, out.rate + dense->q_count)));
@@ -265,8 +264,8 @@ static void compare_mechanism(uint64_t *seed, int kind, const mechanism_options 
         fail_msg("mechanism %d: %s", kind, error.text);
     dense_mechanism_create(&dense, &model, model.firing[0].tube, NULL, 0);
     dense_mechanism_start(&dense, start);
-    base_frame carrier = multibody_carrier(&base, 0);
-    const multibody_base *own = base.own;
+    base_frame carrier = mechanism_base_carrier(&base, 0);
+    const mechanism_base *own = base.own;
     if (mechanism_assemble(&own->of_tube[0], &carrier, start, &error))
         fail_msg("mechanism %d: %s", kind, error.text);
     dense_mechanism_begin(&dense, &carrier, start);

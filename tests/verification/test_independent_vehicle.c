@@ -3,6 +3,7 @@
 // tyre and hinge force.
 #include "support/check.h"
 
+#include "support/vehicle_bodies.h"
 #include "support/vehicle_case.h"
 
 enum { VEHICLES = 48, STATES = 21 }; // 1,008 states
@@ -19,7 +20,7 @@ typedef struct differences {
 
 typedef struct fast_vehicle {
     marching_system marching;
-    orientating_system orientating;
+    vehicle_bodies orientating;
 } fast_vehicle;
 
 static void build(fast_vehicle *fast, const ld_model *model, int launching, const int *fired,
@@ -27,7 +28,7 @@ static void build(fast_vehicle *fast, const ld_model *model, int launching, cons
 {
     ld_error error;
     if (marching_build(&fast->marching, &model->base.vehicle, model->gravity, -10, 10, &error) ||
-        orientating_build(&fast->orientating, model, launching, fired, count, &error))
+        vehicle_bodies_build(&fast->orientating, model, launching, fired, count, &error))
         fail_msg("%s", error.text);
 }
 
@@ -65,8 +66,8 @@ static void compare_rates(int wheels, const double *orientating, const double *m
         }
     }
     int last = WHEEL_STATES * wheels;
-    worst->platforms = fmax(worst->platforms, differ_all(8, orientating + ORIENTATING_V,
-                                                         dense->orientating + ORIENTATING_V));
+    worst->platforms = fmax(worst->platforms,
+                            differ_all(8, orientating + VEHICLE_V, dense->orientating + VEHICLE_V));
     worst->wheels = fmax(worst->wheels, differ_all(3 * wheels, acceleration[0], acceleration[1]));
     worst->rate = fmax(worst->rate, differ_all(9 + 5 * wheels, rate[0], rate[1]));
     worst->rate = fmax(worst->rate, differ(marching[last], dense->marching[last], 1));
@@ -93,20 +94,19 @@ static void compare_tyres(const ld_vehicle *model, const marching_output *output
 }
 
 // Sums of an angle, a rate and an integral, measured in what each may reach.
-static void compare_hinges(const ld_model *model, const orientating_motion *motion,
+static void compare_hinges(const ld_model *model, const vehicle_motion *motion,
                            const double *orientating, const dense_vehicle_output *dense,
                            differences *worst, coverage *seen)
 {
     const ld_turret *turret[HINGES] = {&model->platform.azimuth, &model->platform.elevation};
     for (int i = 0; i < HINGES; i++) {
         const hinge_report *report = &motion->hinge[i];
-        double limit = turret[i]->stabiliser.torque_limit, z_dot = orientating[ORIENTATING_Z + i];
-        double pair[5][3] = {
-            {report->torque, dense->hinge[i].torque, limit},
-            {report->friction, dense->hinge[i].friction, limit},
-            {report->measured, dense->hinge[i].measured, 1},
-            {report->measured_rate, dense->hinge[i].measured_rate, 1},
-            {z_dot, dense->orientating[ORIENTATING_Z + i], turret[i]->stabiliser.ki}};
+        double limit = turret[i]->stabiliser.torque_limit, z_dot = orientating[VEHICLE_Z + i];
+        double pair[5][3] = {{report->torque, dense->hinge[i].torque, limit},
+                             {report->friction, dense->hinge[i].friction, limit},
+                             {report->measured, dense->hinge[i].measured, 1},
+                             {report->measured_rate, dense->hinge[i].measured_rate, 1},
+                             {z_dot, dense->orientating[VEHICLE_Z + i], turret[i]->stabiliser.ki}};
         for (int k = 0; k < 5; k++)
             worst->hinge = fmax(worst->hinge, differ(pair[k][0], pair[k][1], pair[k][2]));
         seen->limited += report->limited;
@@ -124,7 +124,7 @@ static void compare_drives(const ld_model *model, bool linear, const double *sta
     const ld_turret *turret[HINGES] = {&model->platform.azimuth, &model->platform.elevation};
     for (int i = 0; i < HINGES; i++) {
         const ld_stabiliser *s = &turret[i]->stabiliser;
-        int at = ORIENTATING_DRIVE + DRIVE_STATES * i;
+        int at = VEHICLE_DRIVE + DRIVE_STATES * i;
         const double *own = orientating + at, *other = dense->orientating + at;
         double motor = s->gear.present ? s->torque_limit / s->gear.inertia : 1;
         double size[DRIVE_STATES] = {s->torque_limit * fmax(s->bandwidth, 1), 1, 1, 1, motor};
@@ -148,21 +148,21 @@ static void compare(fast_vehicle *fast, const dense_vehicle *vehicle, const vehi
 {
     const ld_model *model = vehicle->model;
     // the program's two subsystems
-    orientating_motion motion;
+    vehicle_motion motion;
     marching_output wheel_forces;
-    orientating_output hinge_forces;
-    double marching[DENSE_MARCHING_STATES], orientating[ORIENTATING_MOST_STATES] = {0};
-    orientating_motion_at(&fast->orientating, c->t, c->orientating, &motion);
+    vehicle_output hinge_forces;
+    double marching[DENSE_MARCHING_STATES], orientating[VEHICLE_MOST_BODY_STATES] = {0};
+    vehicle_bodies_move(&fast->orientating, c->t, c->orientating, &motion);
     marching_evaluate(&fast->marching, &motion.chassis, false, NULL, c->marching, marching,
                       &wheel_forces);
-    orientating_input input = {.chassis_force = wheel_forces.force,
-                               .chassis_moment = wheel_forces.moment,
-                               .tube_force = c->tube_force,
-                               .tube_moment = c->tube_moment,
-                               .linear = c->frictionless};
+    vehicle_input input = {.chassis_force = wheel_forces.force,
+                           .chassis_moment = wheel_forces.moment,
+                           .tube_force = c->tube_force,
+                           .tube_moment = c->tube_moment,
+                           .linear = c->frictionless};
     memcpy(input.rest, c->rest, sizeof input.rest);
-    assert_int_equal(orientating_evaluate(&fast->orientating, &input, c->orientating, &motion,
-                                          orientating, &hinge_forces),
+    assert_int_equal(vehicle_bodies_evaluate(&fast->orientating, &input, c->orientating, &motion,
+                                             orientating, &hinge_forces),
                      0);
     // the independent one
     dense_vehicle_output dense;
@@ -202,7 +202,7 @@ static void random_states_of_random_vehicles(void **state)
             compare(&fast, &vehicle, &c, &worst, &seen);
         }
         marching_free(&fast.marching);
-        orientating_free(&fast.orientating);
+        vehicle_bodies_free(&fast.orientating);
         dense_vehicle_free(&vehicle);
         reference_model_free(&model);
     }

@@ -11,6 +11,7 @@
 #include "support/fresh_launch.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
+#include "systems/bases/mechanism_base.h"
 
 static const double reach = 4, full = 3e3; // [m], [N] at the mouth
 
@@ -42,8 +43,8 @@ static void moves_as_under_a_force_at_the_mouth(void **state)
         fail_msg("%s", error.text);
     const launcher_system *launcher = &launch.state.launcher;
     double *orientating = y + launcher->base_at;
-    orientating[ORIENTATING_W + 1] = 0.3; // turning, one hinge, too
-    orientating[ORIENTATING_RATE] = -0.2;
+    orientating[VEHICLE_W + 1] = 0.3; // turning, one hinge, too
+    orientating[VEHICLE_RATE] = -0.2;
     simulation_input(&launch.state, 0, y, &input);
     const v3 at = jets_mouth(&model, 4, 8);
     const ld_layout *layout = &model.tubes.layout;
@@ -62,8 +63,7 @@ static void moves_as_under_a_force_at_the_mouth(void **state)
     const int fired[] = {8};
     dense_vehicle_create(&vehicle, &model, 8, fired, 0);
     dense_vehicle_input on = {.orientating = orientating,
-                              .marching =
-                                  orientating + base_as_vehicle(&launcher->base)->marching_at,
+                              .marching = orientating + mechanism_base_marching_at(&launcher->base),
                               .tube_force = with.launching.base_force,
                               .tube_moment = with.launching.base_moment};
     assert_true(dense_vehicle_evaluate(&vehicle, &on, &still));
@@ -71,7 +71,7 @@ static void moves_as_under_a_force_at_the_mouth(void **state)
     on.jet_at = at;
     assert_true(dense_vehicle_evaluate(&vehicle, &on, &pushed));
     double worst = 0, most = 0;
-    for (int i = ORIENTATING_V; i < ORIENTATING_RATE + HINGES; i++) {
+    for (int i = VEHICLE_V; i < VEHICLE_RATE + HINGES; i++) {
         double change = pushed.orientating[i] - still.orientating[i];
         double found = with.base.rate[i] - without.base.rate[i];
         worst = fmax(worst, fabs(found - change));
@@ -81,7 +81,7 @@ static void moves_as_under_a_force_at_the_mouth(void **state)
     CHECK_BELOW("changes of the accelerations, relative", worst / most, 1e-9);
     CHECK_BELOW("power [W], relative",
                 with.base.power[VEHICLE_JET] / (pushed.power - still.power) - 1, 1e-9);
-    CHECK_BELOW("force told [N]", with.base.report.vehicle.jet - full, 0);
+    CHECK_BELOW("force told [N]", with.base.report.jet - full, 0);
     dense_vehicle_free(&vehicle);
     fresh_launch_free(&launch);
     reference_model_free(&model);
@@ -104,7 +104,6 @@ static double momentum_of(const launch_state *self, double t, const double *y)
 {
     const launcher_system *launcher = &self->launcher;
     const launching_layout *at = &launcher->launching.layout;
-    const vehicle_system *vehicle = base_as_vehicle(&launcher->base);
     m3 A_IR = q_matrix(q_from(y + at->quaternion));
     double energy[2];
     for (int side = 0; side < 2; side++) {
@@ -113,9 +112,9 @@ static double momentum_of(const launch_state *self, double t, const double *y)
         memcpy(moved, y, (size_t)launcher->state_count * sizeof *y);
         v3 along = m3_apply_transposed(A_IR, v3_make(u, 0, 0));
         v3_store(moved + at->v, v3_add(v3_from(moved + at->v), along));
-        moved[launcher->base_at + ORIENTATING_V] += u;
-        double *wheel = moved + launcher->base_at + vehicle->marching_at;
-        for (int i = 0; i < vehicle->marching.wheel_count; i++)
+        moved[launcher->base_at + VEHICLE_V] += u;
+        double *wheel = moved + launcher->base_at + mechanism_base_marching_at(&launcher->base);
+        for (int i = 0; i < self->model->base.vehicle.wheel_count; i++)
             wheel[WHEEL_STATES * i + WHEEL_V] += u;
         simulation_input(self, t, moved, &input);
         energy[side] = launcher_kinetic_energy(launcher, &input, &self->phase, moved);
@@ -203,7 +202,7 @@ static void impulse_on_a_free_vehicle(void **state)
     CHECK_BELOW("momentum less impulse, relative", worst / fabs(impulse), 1e-9);
     const launcher_output *out = simulation_output(self, t, last);
     simulation_input(self, t, last, &input);
-    double told = -out->base.report.vehicle.jet * m3_column(input.launching.base.A, 0).x;
+    double told = -out->base.report.jet * m3_column(input.launching.base.A, 0).x;
     jet_wrench beside = jets_at(&self->jets, t, &input.launching.base, 4);
     v3 moment = v3_cross(jets_mouth(&model, 8, 4), beside.force);
     CHECK_WITHIN("moment seen from another tube [N m]", v3_norm(moment), 50, 1000);

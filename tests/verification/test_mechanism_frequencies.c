@@ -6,7 +6,7 @@
 #include "model/model.h"
 #include "support/reference_model.h"
 #include "systems/bases/base.h"
-#include "systems/bases/multibody_base.h"
+#include "systems/bases/mechanism_base.h"
 
 enum { MOST = 16 };
 
@@ -66,7 +66,7 @@ static int squares_of(const ld_model *model, double *square, double *coupled)
     const double h = 1e-6;
     if (base_build(&base, model, &error))
         fail_msg("%s", error.text);
-    const multibody_base *own = base.own;
+    const mechanism_base *own = base.own;
     int n = base.displacement_count;
     assert_true(n <= MOST);
     *coupled = 0;

@@ -5,7 +5,7 @@
 #include "model/model.h"
 #include "support/mechanism_case.h"
 #include "support/reference_model.h"
-#include "systems/bases/multibody_base.h"
+#include "systems/bases/mechanism_base.h"
 
 enum { STATES = BASE_MOST_STATES + 1 }; // and the work of all forces on the bodies
 
@@ -61,7 +61,7 @@ static double balance(motion *self, const dense_mechanism *dense, double t, cons
 {
     static dense_mechanism_output out;
     double rate[STATES];
-    base_frame carrier = multibody_carrier(self->base, t);
+    base_frame carrier = mechanism_base_carrier(self->base, t);
     dense_mechanism_input input = {.t = t,
                                    .state = state,
                                    .carrier = &carrier,
@@ -113,7 +113,7 @@ static bool begin(uint64_t *seed, int kind, const mechanism_options *options, dr
         fail_msg("mechanism %d: %s", kind, error.text);
     dense_mechanism_create(&d->dense, &d->model, d->model.firing[0].tube, NULL, 0);
     dense_mechanism_start(&d->dense, start);
-    base_frame carrier = multibody_carrier(&d->base, 0);
+    base_frame carrier = mechanism_base_carrier(&d->base, 0);
     dense_mechanism_begin(&d->dense, &carrier, start);
     return draw_mechanism_state(seed, &d->dense, &d->model, &d->base, &d->c);
 }

@@ -14,7 +14,7 @@
 #include "support/check.h"
 #include "support/recorded_run.h"
 #include "support/reference_model.h"
-#include "systems/bases/orientating.h"
+#include "support/vehicle_bodies.h"
 
 static const double two_pi = 6.283185307179586476925;
 
@@ -90,7 +90,7 @@ static void put_on_sines(ld_model *model, double speed, const sine *sines, bool 
 {
     enum { ROWS = 20001 };
     without_coulomb_friction(model, speed);
-    ld_road *road = &model->base.vehicle.road;
+    ld_road *ground = &model->base.vehicle.road;
     // the options of stabilisers that are linear
     ld_stabiliser *elevation = &model->platform.elevation.stabiliser;
     elevation->cascade = (ld_cascade){true, 15, 4e5, 4e5};
@@ -103,7 +103,7 @@ static void put_on_sines(ld_model *model, double speed, const sine *sines, bool 
     model->run.output_step_lead_in = 4e-3;
     model->firing[0].at = 2;
     for (int k = 0; k < SINES && !left; k++)
-        road->sine[road->sine_count++] = (ld_road_sine){
+        ground->sine[ground->sine_count++] = (ld_road_sine){
             sines[k].amplitude, speed / sines[k].frequency, sines[k].phase + two_pi / 4};
     double *data = left ? calloc(3 * ROWS, sizeof *data) : NULL;
     for (int i = 0; i < ROWS && left; i++) {
@@ -114,7 +114,7 @@ static void put_on_sines(ld_model *model, double speed, const sine *sines, bool 
                       cos(two_pi * sines[k].frequency / speed * row[0] + sines[k].phase);
     }
     if (left)
-        road->profile = (ld_table){ROWS, 3, data};
+        ground->profile = (ld_table){ROWS, 3, data};
 }
 
 // What a column is fitted by: 1, t, the sines, and what has not died out since the start, motions
@@ -278,10 +278,10 @@ static double compare_inputs(const recorded_run *run, const ld_model *model,
         double most = 0, off = 0;
         fit(run, names[i], &by, found);
         for (int k = 0; k < SINES; k++) {
-            ld_phasor g = gain[k][i], road = {sines[k].amplitude * cos(sines[k].phase),
-                                              sines[k].amplitude * sin(sines[k].phase)};
-            double re = g.real * road.real - g.imaginary * road.imaginary;
-            double im = g.real * road.imaginary + g.imaginary * road.real;
+            ld_phasor g = gain[k][i], ground = {sines[k].amplitude * cos(sines[k].phase),
+                                                sines[k].amplitude * sin(sines[k].phase)};
+            double re = g.real * ground.real - g.imaginary * ground.imaginary;
+            double im = g.real * ground.imaginary + g.imaginary * ground.real;
             most = fmax(most, hypot(re, im));
             off = fmax(off, hypot(found[k].real - re, found[k].imaginary - im));
         }
@@ -331,15 +331,15 @@ static void a_base_in_six_sines(void **state)
 // the hinge does not turn it.
 static void balance(ld_model *model)
 {
-    orientating_system all;
+    vehicle_bodies all;
     ld_error error;
     ld_turret *frame = &model->platform.elevation;
-    assert_int_equal(orientating_build(&all, model, 0, NULL, 0, &error), LD_OK);
+    assert_int_equal(vehicle_bodies_build(&all, model, 0, NULL, 0, &error), LD_OK);
     double center[3];
     v3_store(center, all.elevation_center);
     for (int i = 0; i < 3; i++)
         frame->center[i] -= all.elevation_mass / frame->mass * center[i];
-    orientating_free(&all);
+    vehicle_bodies_free(&all);
 }
 
 // A road of sines turns the chassis: what of it a run finds in the platform's angle against the
@@ -630,15 +630,15 @@ static on_roads check_speeds(int iso_class, bool whole, double contact_friction,
     on_roads all = {0};
     without_coulomb_friction(&model, speeds[0]);
     model.rocket.contact.friction = contact_friction;
-    ld_road *road = &model.base.vehicle.road;
-    road->iso_class = iso_class;
-    road->tracks = LD_TRACKS_INDEPENDENT;
-    road->harmonics = 400;
-    road->wavelengths[1] = 100;
+    ld_road *ground = &model.base.vehicle.road;
+    ground->iso_class = iso_class;
+    ground->tracks = LD_TRACKS_INDEPENDENT;
+    ground->harmonics = 400;
+    ground->wavelengths[1] = 100;
     model.run.lead_in = 6;
     model.firing[0].at = 3;
     for (int i = 0; i < SPEEDS; i++) {
-        road->wavelengths[0] = whole ? 0.3 : speeds[i] / 14;
+        ground->wavelengths[0] = whole ? 0.3 : speeds[i] / 14;
         on_roads now = check_roads(&model, speeds[i], seeds);
         all.inside += now.inside;
         all.open += now.open / SPEEDS;

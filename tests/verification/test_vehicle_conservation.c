@@ -10,6 +10,7 @@
 #include "support/launching_run.h"
 #include "support/launching_state.h"
 #include "support/reference_model.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/launching/launcher.h"
 #include "systems/launching/launching_dynamics.h"
 
@@ -85,23 +86,25 @@ static void tear_down(flight *f)
 static void throw_vehicle(flight *f, uint64_t *seed)
 {
     double *base = f->state + f->system->base_at;
-    double *wheel = f->state + f->system->base_at + ORIENTATING_STATES;
+    double *wheel = f->state + f->system->base_at + VEHICLE_BODY_STATES;
     quat q =
         q_from_matrix(m3_mul(m3_rotation_y(0.7), m3_mul(m3_rotation_z(0.3), m3_rotation_x(-0.2))));
-    v3_store(base + ORIENTATING_R, v3_make(1, 4, -1));
-    memcpy(base + ORIENTATING_QUATERNION, &q, sizeof q);
-    v3_store(base + ORIENTATING_V, v3_make(3, -1, 2));
-    v3_store(base + ORIENTATING_W, v3_make(0.4, -0.5, 0.3));
+    v3_store(base + VEHICLE_R, v3_make(1, 4, -1));
+    memcpy(base + VEHICLE_QUATERNION, &q, sizeof q);
+    v3_store(base + VEHICLE_V, v3_make(3, -1, 2));
+    v3_store(base + VEHICLE_W, v3_make(0.4, -0.5, 0.3));
     for (int i = 0; i < HINGES; i++) {
-        base[ORIENTATING_ANGLE + i] = f->input.rest.hinge[i].angle = 0.3 + 0.1 * i;
-        base[ORIENTATING_RATE + i] = 0.3 - 0.5 * i;
+        base[VEHICLE_ANGLE + i] = f->input.rest.hold[i].angle = 0.3 + 0.1 * i;
+        base[VEHICLE_RATE + i] = 0.3 - 0.5 * i;
     }
     // the stabilisers want to turn by tenths of a radian
     f->model.platform.azimuth.stabiliser.command.data[1] = 1.0;
     f->model.platform.elevation.stabiliser.command.data[1] = 0.7;
     launcher_place(f->system, 0, f->state, &f->input);
-    const base_frame *chassis = &f->input.found.vehicle.chassis;
-    marching_place(&base_as_vehicle(&f->system->base)->marching, chassis, wheel);
+    const mechanism_base *vehicle = f->system->base.own;
+    base_frame at = mechanism_base_chassis(&f->system->base, &f->input.found.mechanism);
+    const base_frame *chassis = &at;
+    marching_place(&vehicle->marching, chassis, wheel);
     for (int j = 0; j < f->model.base.vehicle.wheel_count; j++, wheel += WHEEL_STATES) {
         v3 arm = v3_sub(v3_from(wheel + WHEEL_R), chassis->r);
         v3 v = v3_add(chassis->v, v3_cross(chassis->w, arm));
@@ -150,9 +153,9 @@ static void add_bodies(const flight *f, sums *s)
     const double *base = f->state + f->system->base_at;
     const ld_platform *platform = &f->model.platform;
     const double *hinge_at[HINGES] = {platform->azimuth.hinge_at, platform->elevation.hinge_at};
-    v3 r = v3_from(base + ORIENTATING_R), v = v3_from(base + ORIENTATING_V);
-    m3 A = q_matrix(q_from(base + ORIENTATING_QUATERNION));
-    v3 w = m3_apply(A, v3_from(base + ORIENTATING_W));
+    v3 r = v3_from(base + VEHICLE_R), v = v3_from(base + VEHICLE_V);
+    m3 A = q_matrix(q_from(base + VEHICLE_QUATERNION));
+    v3 w = m3_apply(A, v3_from(base + VEHICLE_W));
     for (int i = 0; i < DENSE_BODIES; i++) {
         for (int k = 0; k < f->vehicle.body[i].count; k++) {
             const dense_part *part = &f->vehicle.body[i].part[k];
@@ -164,10 +167,10 @@ static void add_bodies(const flight *f, sums *s)
         if (i == DENSE_ELEVATION)
             break;
         v3 arm = m3_apply(A, v3_from(hinge_at[i])), axis = m3_column(A, i == 0 ? 1 : 2);
-        double angle = base[ORIENTATING_ANGLE + i];
+        double angle = base[VEHICLE_ANGLE + i];
         r = v3_add(r, arm);
         v = v3_add(v, v3_cross(w, arm));
-        w = v3_axpy(w, base[ORIENTATING_RATE + i], axis);
+        w = v3_axpy(w, base[VEHICLE_RATE + i], axis);
         A = m3_mul(A, i == 0 ? m3_rotation_y(angle) : m3_rotation_z(angle));
     }
 }
@@ -180,17 +183,17 @@ static sums sums_of(flight *f)
     dense_vehicle_output vehicle;
     // vehicle
     add_bodies(f, &s);
-    const double *wheel = f->state + f->system->base_at + ORIENTATING_STATES;
+    const double *wheel = f->state + f->system->base_at + VEHICLE_BODY_STATES;
     for (int j = 0; j < f->model.base.vehicle.wheel_count; j++, wheel += WHEEL_STATES)
         add_point(&s, f->model.base.vehicle.wheel[j].mass, v3_from(wheel + WHEEL_R),
                   v3_from(wheel + WHEEL_V));
     const double *base = f->state + f->system->base_at;
     dense_vehicle_input given = {.orientating = base,
-                                 .marching = f->state + f->system->base_at + ORIENTATING_STATES};
+                                 .marching = f->state + f->system->base_at + VEHICLE_BODY_STATES};
     assert_true(dense_vehicle_evaluate(&f->vehicle, &given, &vehicle));
     s.energy = vehicle.kinetic + vehicle.potential;
     for (int i = 0; i < HINGES; i++) {
-        double turned = base[ORIENTATING_ANGLE + i] - f->input.rest.hinge[i].angle;
+        double turned = base[VEHICLE_ANGLE + i] - f->input.rest.hold[i].angle;
         s.energy += 0.5 * 1e7 * turned * turned;
     }
     // tube and rocket
@@ -230,7 +233,7 @@ static void follow(flight *f, double tolerance, double time)
     for (int i = 0; i < count; i++)
         atol[i] = i < f->system->work_at ? 1e-2 * tolerance : 1e300;
     for (int i = 0; i < HINGES; i++)
-        atol[f->system->base_at + ORIENTATING_Z + i] = tolerance;
+        atol[f->system->base_at + VEHICLE_Z + i] = tolerance;
     integrator_settings settings = {
         .n = (size_t)count, .rtol = tolerance, .atol = atol, .rhs = rhs, .self = f};
     assert_int_equal(integrator_create(&settings, &stepper, &error), LD_OK);

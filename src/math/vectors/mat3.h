@@ -2,6 +2,8 @@
 #ifndef LD_MATH_MAT3_H
 #define LD_MATH_MAT3_H
 
+#include <stdbool.h>
+
 #include "math/functions.h"
 #include "math/vec3.h"
 
@@ -12,6 +14,13 @@ typedef struct m3 {
 LD_INLINE m3 m3_identity(void)
 {
     return (m3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+}
+LD_INLINE bool m3_is_identity(const m3 *m)
+{
+    for (int i = 0; i < 9; i++)
+        if (m->a[i / 3][i % 3] != (i % 4 == 0))
+            return false;
+    return true;
 }
 LD_INLINE m3 m3_diagonal(double x, double y, double z)
 {

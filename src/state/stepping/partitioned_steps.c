@@ -8,23 +8,26 @@
 #include "model/parts.h"
 #include "state/evaluation.h"
 #include "state/stepping/integrated_steps.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/launching/launching_dynamics.h"
+#include "systems/mechanism/mechanism_evaluation.h"
+#include "systems/mechanism/mechanism_motion.h"
 
-enum { ORIENTATING_MOST = ORIENTATING_MOST_STATES + ORIENTATING_POWERS + 1 };
+enum { BODIES_MOST = VEHICLE_MOST_BODY_STATES + VEHICLE_BODY_POWERS + 1 };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 typedef struct partitioned_steps {
     integrated_steps launching;  // its integrator has the launching subsystem's states and works
     double state[LD_MAX_STATES]; // of the whole
-    const vehicle_system *vehicle;
+    const mechanism_base *vehicle;
+    int marching_at;  // where the wheels begin among the base's states
     double t, t_next; // [s] the last exchange and the next
     int64_t exchanges;
     double t_first; // [s] the instants count from here
     held_frame chassis, tube;
     held_wrench on_chassis, on_tube;
-    integrator *orientating, *marching;
-    bool jet; // the orientating subsystem has the work of jets, too, behind its own
-    int orientating_count, marching_count;
+    integrator *bodies, *marching; // of chassis and platforms, of the wheels
+    int body_count, marching_count;
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 } partitioned_steps;
@@ -84,30 +87,30 @@ static int launching_events(double t, const double *y, double *g, void *user)
     return 0;
 }
 
-static int orientating_rhs(double t, const double *y, double *y_dot, void *user)
+static int bodies_rhs(double t, const double *y, double *y_dot, void *user)
 {
     partitioned_steps *self = user;
     const launch_state *launch = launch_of(self);
+    const base_system *base = &launch->launcher.base;
+    const mechanism_system *bodies = mechanism_of(base);
     double tau = t - self->t;
-    orientating_motion motion;
-    orientating_output out;
-    orientating_input input = {
-        .rest = {launch->rest.hinge[0], launch->rest.hinge[1]},
-        .linear = launch->phase.frictionless,
-    };
-    held_wrench_at(&self->on_chassis, tau, &input.chassis_force, &input.chassis_moment);
+    mechanism_motion motion;
+    mechanism_output out;
+    mechanism_input input = {.rest = launch->rest.hold, .linear = launch->phase.frictionless};
+    held_wrench_at(&self->on_chassis, tau, &input.wheel_force, &input.wheel_moment);
     held_wrench_at(&self->on_tube, tau, &input.tube_force, &input.tube_moment);
-    const orientating_system *orientating = &self->vehicle->of_tube[launch->launcher.base.tube];
-    orientating_motion_at(orientating, t, y, &motion);
+    base_frame carrier = mechanism_base_carrier(base, t);
+    mechanism_move(bodies, t, &carrier, y, &motion);
     jet_wrench back = simulation_jets(launch, t, &motion.tube);
     input.tube_force = v3_add(input.tube_force, back.force);
     input.tube_moment = v3_add(input.tube_moment, back.moment);
-    if (orientating_evaluate(orientating, &input, y, &motion, y_dot, &out))
+    if (mechanism_evaluate(bodies, &input, y, &motion, y_dot, &out))
         return -1;
-    memcpy(y_dot + orientating->state_count, out.power, sizeof out.power);
-    if (self->jet)
-        y_dot[self->orientating_count - 1] = jet_power(&back, &motion.tube);
-    return all_finite(self->orientating_count, y_dot) ? 0 : -1;
+    memcpy(y_dot + bodies->state_count, out.power,
+           (size_t)self->vehicle->mechanism_works * sizeof *out.power);
+    if (self->vehicle->has_jet)
+        y_dot[self->body_count - 1] = jet_power(&back, &motion.tube);
+    return all_finite(self->body_count, y_dot) ? 0 : -1;
 }
 
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
@@ -141,31 +144,35 @@ static void split_launching(const launcher_system *launcher, const double *y, do
     part_of(y, 0, launching->layout.count, launcher->work_at, launching->work_count, part);
 }
 
-// The orientating and marching parts of the whole state.
-static void split_base(const partitioned_steps *self, const double *y, double *orientating,
+// Where the base's works begin in the whole state.
+static int base_works_at(const launcher_system *launcher)
+{
+    return launcher->work_at + launcher->launching.work_count;
+}
+
+// The parts of bodies and wheels of the whole state. The work of jets is the base's last one.
+static void split_base(const partitioned_steps *self, const double *y, double *bodies,
                        double *marching)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
-    int works = launcher->work_at + launcher->launching.work_count;
-    part_of(y, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
-            orientating);
-    part_of(y, launcher->base_at + self->vehicle->marching_at, self->vehicle->marching.state_count,
-            works + ORIENTATING_POWERS, MARCHING_POWERS, marching);
-    if (self->jet)
-        orientating[self->orientating_count - 1] = y[works + VEHICLE_JET];
+    int works = base_works_at(launcher), own = self->vehicle->mechanism_works;
+    part_of(y, launcher->base_at, self->marching_at, works, own, bodies);
+    part_of(y, launcher->base_at + self->marching_at, self->vehicle->marching.state_count,
+            works + own, MARCHING_POWERS, marching);
+    if (self->vehicle->has_jet)
+        bodies[self->body_count - 1] = y[launcher->state_count - 1];
 }
 
-static void join_base(const partitioned_steps *self, const double *orientating,
-                      const double *marching, double *y)
+static void join_base(const partitioned_steps *self, const double *bodies, const double *marching,
+                      double *y)
 {
     const launcher_system *launcher = &launch_of(self)->launcher;
-    int works = launcher->work_at + launcher->launching.work_count;
-    put_part(orientating, launcher->base_at, self->vehicle->marching_at, works, ORIENTATING_POWERS,
-             y);
-    put_part(marching, launcher->base_at + self->vehicle->marching_at,
-             self->vehicle->marching.state_count, works + ORIENTATING_POWERS, MARCHING_POWERS, y);
-    if (self->jet)
-        y[works + VEHICLE_JET] = orientating[self->orientating_count - 1];
+    int works = base_works_at(launcher), own = self->vehicle->mechanism_works;
+    put_part(bodies, launcher->base_at, self->marching_at, works, own, y);
+    put_part(marching, launcher->base_at + self->marching_at, self->vehicle->marching.state_count,
+             works + own, MARCHING_POWERS, y);
+    if (self->vehicle->has_jet)
+        y[launcher->state_count - 1] = bodies[self->body_count - 1];
 }
 
 // The base's states at an instant between the last exchange and the next: cubic Hermite.
@@ -210,25 +217,25 @@ static ld_status go_to(integrator *part, double t_next, ld_error *error)
 // Takes chassis and wheels from their part of the state y at the last exchange to the next.
 static ld_status take_base_on(partitioned_steps *self, const double *y, ld_error *error)
 {
-    double orientating[ORIENTATING_MOST], marching[MARCHING_MOST], rate[2][LD_MAX_STATES];
+    double bodies[BODIES_MOST], marching[MARCHING_MOST], rate[2][LD_MAX_STATES];
     memcpy(self->from, y, (size_t)launch_of(self)->launcher.state_count * sizeof(double));
-    split_base(self, y, orientating, marching);
-    ld_status status = integrator_start(self->orientating, self->t, orientating, error);
+    split_base(self, y, bodies, marching);
+    ld_status status = integrator_start(self->bodies, self->t, bodies, error);
     if (!status)
         status = integrator_start(self->marching, self->t, marching, error);
     if (!status)
-        status = go_to(self->orientating, self->t_next, error);
+        status = go_to(self->bodies, self->t_next, error);
     if (!status)
         status = go_to(self->marching, self->t_next, error);
     if (status)
         return status;
 
-    orientating_rhs(self->t, orientating, rate[0], self);
+    bodies_rhs(self->t, bodies, rate[0], self);
     marching_rhs(self->t, marching, rate[1], self);
     join_base(self, rate[0], rate[1], self->rate_from);
-    const double *chassis = integrator_state(self->orientating);
+    const double *chassis = integrator_state(self->bodies);
     const double *marched = integrator_state(self->marching);
-    orientating_rhs(self->t_next, chassis, rate[0], self);
+    bodies_rhs(self->t_next, chassis, rate[0], self);
     marching_rhs(self->t_next, marched, rate[1], self);
     join_base(self, rate[0], rate[1], self->rate_to);
     join_base(self, chassis, marched, self->to);
@@ -260,9 +267,11 @@ static ld_status exchange(partitioned_steps *self, double t, const double *y, do
     launch->latest.known = false;
     if (launcher_evaluate(&launch->launcher, &input, &launch->phase, y, out))
         return ld_fail(error, LD_ERR_NUMERIC, "the exchange at t = %.9g s has no solution", t);
-    held_frame_take(&self->chassis, &input.found.vehicle.chassis, since);
-    held_frame_take(&self->tube, &input.found.vehicle.tube, since);
-    const marching_output *wheels = &out->base.report.vehicle.marching;
+    base_frame chassis = mechanism_base_chassis(&launch->launcher.base, &input.found.mechanism);
+    chassis.q = q_from_matrix(chassis.A);
+    held_frame_take(&self->chassis, &chassis, since);
+    held_frame_take(&self->tube, &input.found.mechanism.tube, since);
+    const marching_output *wheels = &out->base.report.marching;
     held_wrench_take(&self->on_chassis, wheels->force, wheels->moment, since);
     held_wrench_take(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
     self->t = t;
@@ -278,27 +287,26 @@ static ld_status create_base(partitioned_steps *self, const integrator_settings 
     bool absolute[2][LD_MAX_STATES] = {{false}};
     for (int i = 0; i < LD_MAX_STATES; i++)
         atol[0][i] = atol[1][i] = INFINITY;
-    for (int i = 0; i < self->vehicle->marching_at; i++) {
+    for (int i = 0; i < self->marching_at; i++) {
         atol[0][i] = all->atol[launcher->base_at + i];
         absolute[0][i] = all->absolute[launcher->base_at + i];
     }
     for (int i = 0; i < self->vehicle->marching.state_count; i++) {
-        atol[1][i] = all->atol[launcher->base_at + self->vehicle->marching_at + i];
-        absolute[1][i] = all->absolute[launcher->base_at + self->vehicle->marching_at + i];
+        atol[1][i] = all->atol[launcher->base_at + self->marching_at + i];
+        absolute[1][i] = all->absolute[launcher->base_at + self->marching_at + i];
     }
-    self->jet = model_has_jet(launch_of(self)->model);
-    self->orientating_count = self->vehicle->marching_at + ORIENTATING_POWERS + self->jet;
+    self->body_count = self->marching_at + self->vehicle->mechanism_works + self->vehicle->has_jet;
     self->marching_count = self->vehicle->marching.state_count + MARCHING_POWERS;
     integrator_settings settings = *whole;
     settings.events = NULL;
     settings.event_count = 0;
     settings.project = NULL;
     settings.max_step = 0;
-    settings.n = (size_t)self->orientating_count;
-    settings.rhs = orientating_rhs;
+    settings.n = (size_t)self->body_count;
+    settings.rhs = bodies_rhs;
     settings.atol = atol[0];
     settings.absolute = absolute[0];
-    ld_status status = integrator_create(&settings, &self->orientating, error);
+    ld_status status = integrator_create(&settings, &self->bodies, error);
     settings.n = (size_t)self->marching_count;
     settings.rhs = marching_rhs;
     settings.atol = atol[1];
@@ -313,14 +321,15 @@ static ld_status create_base(partitioned_steps *self, const integrator_settings 
 
 bool partitioned_steps_apply(const launch_state *launch)
 {
-    return base_as_vehicle(&launch->launcher.base) && model_run(launch->model)->coupling_step > 0;
+    return base_is_vehicle(&launch->launcher.base) && model_run(launch->model)->coupling_step > 0;
 }
 
 static ld_status create(propagator *object, ld_error *error)
 {
     partitioned_steps *self = (partitioned_steps *)object;
     const launching_system *launching = &object->launch->launcher.launching;
-    self->vehicle = base_as_vehicle(&object->launch->launcher.base);
+    self->vehicle = object->launch->launcher.base.own;
+    self->marching_at = mechanism_base_marching_at(&object->launch->launcher.base);
     tolerances all;
     tolerances_find(object->launch, &all);
     integrator_settings settings = integrated_settings(object, &all);
@@ -341,7 +350,7 @@ static void release(propagator *object)
 {
     const partitioned_steps *self = (const partitioned_steps *)object;
     integrator_free(self->launching.integrator);
-    integrator_free(self->orientating);
+    integrator_free(self->bodies);
     integrator_free(self->marching);
 }
 
@@ -415,7 +424,7 @@ static int64_t most_steps(const propagator *object)
     const partitioned_steps *self = (const partitioned_steps *)object;
     int64_t most = integrated_count(object);
     for (int i = 0; i < 2; i++) {
-        int64_t steps = integrator_steps(i ? self->marching : self->orientating);
+        int64_t steps = integrator_steps(i ? self->marching : self->bodies);
         most = steps > most ? steps : most;
     }
     return most;
@@ -424,7 +433,7 @@ static int64_t most_steps(const propagator *object)
 static int64_t evaluations(const propagator *object)
 {
     const partitioned_steps *self = (const partitioned_steps *)object;
-    return integrated_evaluations(object) + integrator_evaluations(self->orientating) +
+    return integrated_evaluations(object) + integrator_evaluations(self->bodies) +
            integrator_evaluations(self->marching);
 }
 
@@ -467,7 +476,7 @@ static void archive_all(propagator *object, archive *bytes)
     integrator_archive(self->launching.integrator, bytes);
     archive_expect(bytes, false); // no long steps
     archive_expect(bytes, true);  // subsystems apart
-    integrator_archive(self->orientating, bytes);
+    integrator_archive(self->bodies, bytes);
     integrator_archive(self->marching, bytes);
     double *instants[] = {&self->t, &self->t_next, &self->t_first};
     for (int i = 0; i < 3; i++)

@@ -1,6 +1,6 @@
 // What carries the tube: where the frame T of the undeformed tube is, how it moves, and what the
 // tube's wrench does to it (model.md, section 2). Each kind is a file base_*.c with a table of
-// functions, listed in LD_BASE_KINDS. The equations do not ask which kind it is; base_as_vehicle is
+// functions, listed in LD_BASE_KINDS. The equations do not ask which kind it is; base_is_vehicle is
 // there for what a vehicle alone has: subsystems integrated apart, geometry, figures at rest.
 //
 // Some kinds go where time or a caller says. Others have a motion of their own, with rates, works,
@@ -36,9 +36,9 @@ typedef struct base_interface base_interface;
 // What may act on a launcher from outside, by name.
 typedef struct base_inputs {
     double motion[6]; // [m], [rad] x, y, z, yaw, pitch, roll of a base with a given motion
-    double road[LD_MAX_WHEELS]; // [m] height under each wheel
-    double command[HINGES];     // [rad]
-    v3 force, moment;           // [N], [N m] on the chassis, in I, about its mass centre
+    double road[LD_MAX_WHEELS];           // [m] height under each wheel
+    double command[MECHANISM_MOST_HOLDS]; // [rad] of hinges
+    v3 force, moment;           // [N], [N m] on the body on the wheels, in I, about its origin
     v3 tube_force, tube_moment; // [N], [N m] on what holds the tube, in T, about its origin
     launching_load launching;   // on tube and rocket
 } base_inputs;
@@ -65,21 +65,15 @@ typedef struct base_system {
 
 // What a kind finds when it places the tube, and requires again in the same evaluation.
 typedef union base_found {
-    orientating_motion vehicle;
-    mechanism_motion multibody;
+    mechanism_motion mechanism;
     base_frame fmu; // that it reports
 } base_found;
 
-// What a mechanism and its wheels report.
-typedef struct multibody_report {
+// What a mechanism and its wheels report besides rates and works.
+typedef struct base_report {
     mechanism_output mechanism;
     marching_output marching;
-} multibody_report;
-
-// What a kind reports besides rates and works.
-typedef union base_report {
-    vehicle_report vehicle;
-    multibody_report multibody;
+    double jet; // [N] of all jets, along -x of T
 } base_report;
 
 // Of a base that an FMU moves.
@@ -132,7 +126,6 @@ typedef struct base_wrench {
 // What keeps what it was in the equilibrium.
 typedef union base_rest {
     double number[2 * MECHANISM_MOST_HOLDS]; // all of them
-    hinge_rest hinge[HINGES];
     hold_rest hold[MECHANISM_MOST_HOLDS];
 } base_rest;
 
@@ -279,8 +272,9 @@ void base_find(const base_system *self, const base_found *found, const base_outp
 // The road under a vehicle of a run of its own (base_share) is this one, which outlives it.
 void base_set_road(base_system *self, road *under);
 
-// A base of kind vehicle, of kind multibody; NULL: it is none.
-const vehicle_system *base_as_vehicle(const base_system *self);
+// A base of kind multibody; NULL: it is none.
 const mechanism_system *base_as_multibody(const base_system *self);
+// Whether it is of kind vehicle.
+bool base_is_vehicle(const base_system *self);
 
 #endif

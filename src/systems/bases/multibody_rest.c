@@ -7,7 +7,7 @@
 #include "math/matrices/lapack.h"
 #include "math/matrices/symmetric_eigen.h"
 #include "model/model.h"
-#include "systems/bases/multibody_base.h"
+#include "systems/bases/mechanism_base.h"
 #include "systems/mechanism/mechanism_loops.h"
 #include "systems/mechanism/mechanism_motion.h"
 #include "systems/mechanism/mechanism_state.h"
@@ -20,7 +20,7 @@ enum { MOST_TURNS = 200 };
 // Unknowns: displacements in the sense of the speeds, but for those that drives set; then wheels.
 typedef struct rest_problem {
     const base_system *base;
-    const multibody_base *own;
+    const mechanism_base *own;
     const mechanism_system *mechanism;
     double t;
     int count, wheels_from;
@@ -51,14 +51,15 @@ static void set_holds(const rest_problem *the, double *state)
         for (int i = 0; i < mechanism->hold_count; i++) {
             const mechanism_hold *hold = &mechanism->hold[i];
             hinge_report report;
-            mechanism_watch(mechanism, i, &found.multibody, &report);
+            mechanism_stand(mechanism, &found.mechanism);
+            mechanism_watch(mechanism, i, &found.mechanism, &report);
             moved |= hold->strut < 0 && report.error != 0;
             if (hold->strut < 0)
                 state[hold->q] += report.error;
             else
                 state[mechanism->z_at + i] = hold->control->kp * report.error;
         }
-        if (moved && mechanism_assemble(mechanism, &found.multibody.carrier, state, NULL))
+        if (moved && mechanism_assemble(mechanism, &found.mechanism.carrier, state, NULL))
             return;
     }
 }
@@ -71,7 +72,7 @@ static int accelerations(const rest_problem *the, double *state, double *a)
     base_output output;
     const base_dynamics *dynamics = the->base->kind->dynamics;
     set_holds(the, state);
-    base_frame carrier = multibody_carrier(the->base, the->t);
+    base_frame carrier = mechanism_base_carrier(the->base, the->t);
     mechanism_plant(the->mechanism, &carrier, state);
     the->base->kind->find_frame(the->base, the->t, state, &tube, &found);
     v3 down = m3_apply_transposed(tube.A, v3_make(0, -the->dead, 0));
@@ -255,7 +256,7 @@ static ld_status find_held(const rest_problem *the, const double *state, const d
 // The unknown that accelerates most along directions that nothing holds.
 static void find_falling(const rest_problem *the, double *state, const bool *held)
 {
-    multibody_base *own = the->base->own;
+    mechanism_base *own = the->base->own;
     double a[MECHANISM_MOST_SPEEDS + 3 * LD_MAX_WHEELS];
     double least = 1e-3 * (1 + own->model->gravity);
     own->falling = -1;
@@ -296,7 +297,7 @@ static double measure_moved(const ld_joint *joint, const double *start, const do
 // The joint of the tree that stands farthest from its start.
 static void find_moved(const rest_problem *the, const double *start, const double *state)
 {
-    multibody_base *own = the->base->own;
+    mechanism_base *own = the->base->own;
     const mechanism_system *mechanism = the->mechanism;
     double most = 1;
     own->moved.joint = NULL;
@@ -358,7 +359,7 @@ static double dead_weight(const ld_model *model)
 
 ld_status multibody_rest_find(base_system *base, ld_error *error)
 {
-    multibody_base *own = base->own;
+    mechanism_base *own = base->own;
     rest_problem the = {.base = base,
                         .own = own,
                         .mechanism = &own->of_tube[0],

@@ -1,20 +1,49 @@
-// A vehicle that carries the tube: chassis and platforms (orientating.h) on wheels (marching.h).
+// A vehicle that carries the tube: chassis, azimuth and elevation platform on wheels, which are a
+// mechanism (vehicle_mechanism.h).
 //
-// State: orientating | marching. Works: orientating | marching | jets, where there are any.
+// Works: the first of the mechanism's | the wheels' | the jets', where there are any.
 #ifndef LD_SYSTEMS_VEHICLE_H
 #define LD_SYSTEMS_VEHICLE_H
 
-#include "systems/bases/orientating.h"
 #include "systems/mechanism/marching.h"
+#include "systems/mechanism/mechanism.h"
+
+// The holds of its mechanism.
+enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };
+
+// Its state up to the wheels, by the mechanism's layout.
+enum {
+    VEHICLE_R = 0,          // mass centre of the chassis in I
+    VEHICLE_QUATERNION = 3, // its attitude
+    VEHICLE_ANGLE = 7,      // azimuth, elevation
+    VEHICLE_V = 9,          // velocity of the mass centre, in I
+    VEHICLE_W = 12,         // angular velocity of the chassis, in its own axes
+    VEHICLE_RATE = 15,      // of the two angles
+    VEHICLE_SPEEDS = 8,
+    VEHICLE_Z = 17, // integrals of the stabilisers
+    VEHICLE_DRIVE = 19,
+    VEHICLE_BODY_STATES = VEHICLE_DRIVE, // where no stabiliser has a drive of its own
+    VEHICLE_MOST_BODY_STATES = VEHICLE_DRIVE + HINGES * DRIVE_STATES
+};
+
+// What it tells of the mechanism's works, under its own names.
+#define VEHICLE_WORKS(X)                                                                           \
+    X(VEHICLE_STABILISERS, "stabilisers", "work of the stabilisers or locks")                      \
+    X(VEHICLE_FRICTION, "hinge_friction", "work of the friction in the hinges")                    \
+    X(VEHICLE_GRAVITY, "gravity_platform", "work of gravity on chassis and platforms")
 
 // The work of the jets, where the platform feels any.
 #define JET_WORKS(X) X(VEHICLE_JET, "jet", "work of the jets of rockets that have left")
 
 enum vehicle_power {
-    VEHICLE_BEFORE = ORIENTATING_POWERS + MARCHING_POWERS - 1,
+    VEHICLE_WORKS(WORK_PLACE) VEHICLE_BODY_POWERS,
+    VEHICLE_BEFORE = VEHICLE_BODY_POWERS + MARCHING_POWERS - 1,
     JET_WORKS(WORK_PLACE) VEHICLE_POWERS,
-    VEHICLE_ALWAYS = VEHICLE_JET, // those that are always there come first
 };
+_Static_assert((int)VEHICLE_STABILISERS == (int)MECHANISM_HOLDS &&
+                   (int)VEHICLE_FRICTION == (int)MECHANISM_FRICTION &&
+                   (int)VEHICLE_GRAVITY == (int)MECHANISM_GRAVITY,
+               "works of a vehicle are the first ones of its mechanism");
 
 // Force and moment [N], [N m] of jets on the elevation platform, about T's origin, in T.
 typedef struct jet_wrench {
@@ -24,24 +53,7 @@ typedef struct jet_wrench {
 // Its power [W], T moving as `tube` says.
 double jet_power(const jet_wrench *jet, const base_frame *tube);
 
-typedef struct vehicle_system {
-    const ld_model *model;
-    orientating_system of_tube[LD_MAX_FIRINGS]; // while that tube launches, in the order of firing
-    int tube_count;
-    int marching_at; // where the marching subsystem's states begin
-    marching_system marching;
-    marching_system level; // the same wheels on a flat road
-    bool roads_of_another;
-} vehicle_system;
-
-// What an evaluation reports besides rates and works.
-typedef struct vehicle_report {
-    hinge_report hinge[HINGES];
-    marching_output marching;
-    double jet; // [N] of all jets, along -x of T
-} vehicle_report;
-
-// What its quantities are about: what stands in the state, and what was found with it.
+// What its quantities are about.
 typedef struct vehicle_instant {
     struct {
         double r[3], u[6]; // place, velocity and rate
@@ -50,7 +62,9 @@ typedef struct vehicle_instant {
     struct {
         double r[3];
     } wheel[LD_MAX_WHEELS];
-    vehicle_report report;
+    hinge_report hinge[HINGES];
+    marching_output marching;
+    double jet; // [N] of all jets, along -x of T
 } vehicle_instant;
 
 #endif

@@ -5,6 +5,7 @@
 #ifndef LD_SYSTEMS_LAUNCHER_H
 #define LD_SYSTEMS_LAUNCHER_H
 
+#include "model/blocks/run.h"
 #include "systems/bases/base.h"
 #include "systems/launching/launching.h"
 

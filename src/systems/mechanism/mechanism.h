@@ -10,6 +10,8 @@
 #ifndef LD_SYSTEMS_MECHANISM_H
 #define LD_SYSTEMS_MECHANISM_H
 
+#include <stdint.h>
+
 #include "elements/base_frame.h"
 #include "elements/tube/work.h"
 #include "launchdyn/model.h"
@@ -87,15 +89,27 @@ typedef struct mechanism_later_lock {
     int state; // where it stands
 } mechanism_later_lock;
 
+// A joint of the tree with one axis.
+typedef struct single_axis {
+    int joint, q, u;
+    bool resists; // by friction or stops
+} single_axis;
+
 // As it was built; constant but for the workspace of its chain.
 typedef struct mechanism_system {
     const ld_model *model;
     const ld_mechanism *given;
     ld_mstmm *chain;
+    bool overall; // accelerations by the overall transfer equation
     int element_count;
     int q_count, u_count;             // in the state: without the carrier's
     int joint_element[LD_MAX_JOINTS]; // that it carries; -1: it closes a loop,
     int joint_loop[LD_MAX_JOINTS];    // whose number this is
+    int seen_count;                   // elements whose motion forces and frames need
+    int seen[MECHANISM_MOST_ELEMENTS];
+    bool straight[MECHANISM_MOST_ELEMENTS]; // its node in the chain has the body's axes
+    int axis_count;
+    single_axis axis[LD_MAX_JOINTS];
     int hold_count, z_at, drive_count;
     mechanism_hold hold[MECHANISM_MOST_HOLDS];
     int later_count;
@@ -105,12 +119,14 @@ typedef struct mechanism_system {
     v3 anchor[LD_MAX_FEET]; // [m] where each foot is set down, in I
     mechanism_point foot[LD_MAX_FEET], load[LD_MAX_LOADS], drag[LD_MAX_DRAGS];
     mechanism_point tube; // T's origin, and its axes
+    bool tube_turned;     // those are not the body's
     int freedom_count;    // speeds that the others follow (mechanism_loops.h)
     int freedom[MECHANISM_MOST_SPEEDS];
     int feet_at, state_count; // without the marching subsystem's
     int wheels;               // element on which they are; MECHANISM_GROUND: none
-    int carrier; // element that moves as the carrier, the last one; MECHANISM_GROUND: none
-    double mass; // [kg] of all bodies, carried tubes included
+    int carrier;  // element that moves as the carrier, the last one; MECHANISM_GROUND: none
+    bool carried; // it stands on the carrier, or forces do
+    double mass;  // [kg] of all bodies, carried tubes included
 } mechanism_system;
 
 typedef struct foot_report {
@@ -144,13 +160,16 @@ typedef struct mechanism_motion {
     base_frame tube;
     base_frame carrier;
     double t; // [s]
+    const ld_mstmm *chain;
+    uint64_t move; // that of the chain which found this
     double q[MECHANISM_MOST_COORDINATES], u[MECHANISM_MOST_SPEEDS];
-    body_motion body[MECHANISM_MOST_ELEMENTS];
+    body_motion body[MECHANISM_MOST_ELEMENTS]; // of those that are seen
 } mechanism_motion;
 
 typedef struct mechanism_input {
     v3 tube_force, tube_moment;   // [N], [N m] on the tube's body about T's origin, in T
     v3 wheel_force, wheel_moment; // on the wheels' body, about its origin, in I
+    const double *command, *rate; // [hold_count] added to commands and their rates; NULL: nothing
     double density;               // [kg/m3] of the air
     v3 wind;                      // [m/s] its velocity in I
     const hold_rest *rest;        // [hold_count] of locks and of what is held
@@ -161,6 +180,7 @@ typedef struct mechanism_input {
 typedef struct mechanism_output {
     double power[MECHANISM_POWERS];
     double elastic; // [J]
+    double loss;    // overall form: largest difference from the reduced sweep, relative
     mechanism_report report;
     // what acts on each element [N], [N m] about its origin, in I, but for joints
     double wrench[6 * MECHANISM_MOST_ELEMENTS];

@@ -7,6 +7,7 @@
 #include "math/functions.h"
 #include "model/model.h"
 #include "systems/mechanism/carried_tubes.h"
+#include "systems/mechanism/mechanism_seen.h"
 
 // The elements of the tree as they are listed: bodies, beams, points of beams.
 typedef struct element_list {
@@ -180,11 +181,12 @@ static void join(mechanism_system *self, element_list *list)
 // ---- points
 
 // A point of a body by its name; of a beam a massless element that its section carries.
-static mechanism_point point_of(const mechanism_system *self, element_list *list, const char *name,
+static mechanism_point point_of(mechanism_system *self, element_list *list, const char *name,
                                 const double at[3], m3 axes)
 {
     int body = mechanism_body(self->given, name);
     mechanism_point point = {.element = body, .at = v3_from(at), .axes = axes};
+    self->carried |= body == LD_ON_CARRIER;
     if (body < 0) {
         point.element = body == LD_ON_CARRIER ? MECHANISM_CARRIER : MECHANISM_GROUND;
         return point;
@@ -235,6 +237,7 @@ static void add_carrier(mechanism_system *self, element_list *list)
     for (int i = 0; i < self->given->joint_count; i++)
         if (mechanism_body(self->given, self->given->joint[i].parent) == LD_ON_CARRIER)
             self->carrier = list->count;
+    self->carried |= self->carrier >= 0;
     if (self->carrier >= 0)
         list->element[list->count++] =
             (ld_mstmm_element){.name = "carrier", .hinge = LD_HINGE_FREE, .prescribed = 1};
@@ -310,6 +313,9 @@ static void lay_out(mechanism_system *self)
     self->q_count = ld_mstmm_coordinate_count(self->chain) - 7 * carried;
     self->u_count = ld_mstmm_speed_count(self->chain) - 6 * carried;
     self->z_at = self->q_count + self->u_count;
+    self->freedom_count = self->u_count;
+    for (int k = 0; k < self->u_count; k++)
+        self->freedom[k] = k;
     int at = self->z_at + self->hold_count;
     for (int i = 0; i < self->hold_count; i++) {
         const mechanism_hold *hold = &self->hold[i];
@@ -330,7 +336,7 @@ static void lay_out(mechanism_system *self)
     self->state_count = at + 2 * self->given->foot_count;
 }
 
-static ld_status build_chain(mechanism_system *self, element_list *list,
+static ld_status build_chain(mechanism_system *self, element_list *list, const mechanism_plan *plan,
                              const mechanism_tubes *tubes, ld_error *error)
 {
     const ld_mechanism *given = self->given;
@@ -339,14 +345,13 @@ static ld_status build_chain(mechanism_system *self, element_list *list,
     for (int i = 0; i < given->beam_count; i++)
         add_beam(list, &given->beam[i], &list->beam[i]);
     join(self, list);
-    const ld_base *base = &self->model->base;
-    m3 mount = m3_mul(m3_rotation_y(base->azimuth), m3_rotation_z(base->elevation));
     v3 first = v3_from(self->model->tubes.layout.first);
-    v3 row = m3_apply(mount, carried_tube_row(&self->model->tubes.layout, tubes->launching));
+    v3 row = m3_apply(plan->mount, carried_tube_row(&self->model->tubes.layout, tubes->launching));
     double at[3];
     v3_store(at, v3_add(first, row));
-    self->tube = point_of(self, list, self->model->tubes.on, at, mount);
-    if (!is_beam(given, mechanism_body(given, self->model->tubes.on))) {
+    self->tube = point_of(self, list, plan->carries, at, plan->mount);
+    self->tube_turned = !m3_is_identity(&plan->mount);
+    if (!is_beam(given, mechanism_body(given, plan->carries))) {
         ld_status status = add_tubes(self, list, tubes, error);
         if (status)
             return status;
@@ -377,14 +382,15 @@ static bool has_room(const mechanism_system *self, ld_error *error)
     return fits;
 }
 
-ld_status mechanism_build(mechanism_system *self, const ld_model *model,
+ld_status mechanism_build(mechanism_system *self, const mechanism_plan *plan,
                           const mechanism_tubes *tubes, ld_error *error)
 {
     element_list *list = calloc(1, sizeof *list);
-    *self = (mechanism_system){.model = model, .given = &model->base.mechanism};
+    *self =
+        (mechanism_system){.model = plan->model, .given = plan->given, .overall = plan->overall};
     if (!list)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's bodies");
-    ld_status status = build_chain(self, list, tubes, error);
+    ld_status status = build_chain(self, list, plan, tubes, error);
     free(list);
     if (!status && !has_room(self, error))
         status = LD_ERR_INPUT;
@@ -395,6 +401,7 @@ ld_status mechanism_build(mechanism_system *self, const ld_model *model,
     self->wheels = wheels;
     find_holds(self);
     lay_out(self);
+    mechanism_find_seen(self);
     return LD_OK;
 }
 

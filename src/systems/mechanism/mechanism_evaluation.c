@@ -57,28 +57,22 @@ static double stop_force(const ld_joint_stops *stops, double b, double b_dot,
     return all;
 }
 
-static bool has_one_axis(ld_joint_kind kind)
-{
-    return kind == LD_JOINT_REVOLUTE || kind == LD_JOINT_PRISMATIC;
-}
-
 // Friction and stops of the joints with one axis.
 static void load_joints(const mechanism_system *self, const mechanism_input *input,
                         const mechanism_motion *motion, double *tau, mechanism_output *output)
 {
-    for (int i = 0; i < self->given->joint_count; i++) {
-        const ld_joint *joint = &self->given->joint[i];
-        int element = self->joint_element[i];
-        output->report.friction[i] = 0;
-        if (element < 0 || !has_one_axis(joint->kind))
+    memset(output->report.friction, 0,
+           (size_t)self->given->joint_count * sizeof *output->report.friction);
+    for (int k = 0; k < self->axis_count; k++) {
+        const single_axis *axis = &self->axis[k];
+        const ld_joint *joint = &self->given->joint[axis->joint];
+        if (!axis->resists)
             continue;
-        int q = ld_mstmm_coordinate_offset(self->chain, element);
-        int u = ld_mstmm_speed_offset(self->chain, element);
-        double rate = motion->u[u];
+        double rate = motion->u[axis->u];
         double friction = input->held ? 0 : friction_of(joint, input->linear, rate);
-        tau[u] += friction + stop_force(&joint->stops, motion->q[q], rate, output);
+        tau[axis->u] += friction + stop_force(&joint->stops, motion->q[axis->q], rate, output);
         output->power[MECHANISM_FRICTION] += friction * rate;
-        output->report.friction[i] = friction;
+        output->report.friction[axis->joint] = friction;
     }
 }
 
@@ -100,16 +94,20 @@ static void load_locks(const mechanism_system *self, const mechanism_motion *mot
 
 // ---- everything
 
-// NOLINTNEXTLINE(readability-function-size)
-static void load_holds(const mechanism_system *self, const mechanism_input *input,
-                       const mechanism_motion *motion, const double *state, double *state_dot,
+static void load_holds(const mechanism_input *input, const double *state, double *state_dot,
                        force_sum *sum, double *tau)
 {
+    const mechanism_system *self = sum->self;
     double push[LD_MAX_STRUTS] = {0};
     for (int i = 0; i < self->hold_count; i++) {
         const mechanism_hold *hold = &self->hold[i];
         hinge_report *report = &sum->output->report.hold[i];
-        mechanism_watch(self, i, motion, report);
+        mechanism_watch(self, i, sum->motion, report);
+        if (input->command) {
+            report->command += input->command[i];
+            report->command_rate += input->rate[i];
+            report->error += input->command[i];
+        }
         drive_hold(self, i, input, state, report, state_dot);
         if (hold->strut >= 0)
             push[hold->strut] += report->torque;
@@ -120,30 +118,38 @@ static void load_holds(const mechanism_system *self, const mechanism_input *inpu
     mechanism_add_struts(sum, push);
 }
 
-// Momentum [kg m/s] in I of all bodies, and what beams store and their damping takes; from the
-// motion in the workspace.
+// What a beam stores and its damping takes; its momentum [kg m/s] in I.
+static v4d note_beam(const ld_mstmm *chain, int i, const mechanism_motion *motion,
+                     mechanism_output *output)
+{
+    const node_beam *b = &chain->beam_of[i];
+    const double *q = motion->q + b->modes_q, *q_dot = motion->u + b->modes_u;
+    m3 A = node_body_axes(chain, i);
+    spatial p = beam_momentum(b->body, m3_apply_transposed(A, chain->place[i].angular), q_dot);
+    output->power[MECHANISM_BEAMS] += tube_damping_power(&b->body->tube, q_dot);
+    output->elastic += tube_elastic_energy(&b->body->tube, q);
+    return v4d_from_v3(m3_apply(A, p.linear));
+}
+
+// Momentum [kg m/s] in I of all bodies, from the motion in the workspace.
 static v3 momentum_of(const mechanism_system *self, const mechanism_motion *motion,
                       mechanism_output *output)
 {
     const ld_mstmm *chain = self->chain;
-    v3 sum = v3_zero();
+    v4d sum = v4d_all(0);
     for (int e = 0; e < self->element_count; e++) {
-        const body_motion *body = &motion->body[e];
         int i = chain->element_node[e];
+        const node_inertia *body = &chain->inertia[i];
+        const node_motion *move = &chain->motion[i];
         if (chain->node[i].body == NODE_BEAM) {
-            const node_beam *b = &chain->beam_of[i];
-            const double *q = motion->q + b->modes_q, *q_dot = motion->u + b->modes_u;
-            spatial p = beam_momentum(b->body, m3_apply_transposed(body->A, body->v), q_dot);
-            sum = v3_add(sum, m3_apply(body->A, p.linear));
-            output->power[MECHANISM_BEAMS] += tube_damping_power(&b->body->tube, q_dot);
-            output->elastic += tube_elastic_energy(&b->body->tube, q);
-        } else if (chain->inertia[i].mass > 0) {
-            v3 center = m3_apply(node_axes(chain, i), chain->inertia[i].moment);
-            sum = v3_axpy(sum, chain->inertia[i].mass, body->v);
-            sum = v3_add(sum, v3_cross(body->w, center));
+            sum += note_beam(chain, i, motion, output);
+        } else if (body->mass > 0) {
+            v4d center = v4d_combine(move->A, body->moment.x, body->moment.y, body->moment.z);
+            sum += v4d_all(body->mass) * v4d_from_v3(chain->place[i].angular) +
+                   v4d_cross(move->w, center);
         }
     }
-    return sum;
+    return v4d_v3(sum);
 }
 
 // Springs and dampers of joints that close loops.
@@ -221,23 +227,53 @@ static void note_carrier(const mechanism_system *self, const mechanism_motion *m
         v3_dot(v3_from(on), carrier->v) + v3_dot(v3_from(on + 3), carrier->w);
 }
 
+// Accelerations of the chain, by the form that is asked for.
+static ld_status accelerate(const mechanism_system *self, const mechanism_motion *motion,
+                            const double *tau, double *u_dot, mechanism_output *output)
+{
+    const double *q = motion->q, *u = motion->u, *wrench = output->wrench;
+    if (!self->overall)
+        return multibody_accelerate(self->chain, q, u, &(multibody_load){tau, wrench}, u_dot, NULL);
+    ld_mstmm_overall report = {0};
+    ld_status status = ld_mstmm_accelerations_overall(self->chain, LD_MSTMM_PAPER, q, u, tau,
+                                                      wrench, u_dot, &report, NULL);
+    output->loss = report.loss;
+    return status;
+}
+
+// Rates of coordinates and speeds.
+static int find_rates(const mechanism_system *self, const mechanism_motion *motion,
+                      const double *tau, double *state_dot, mechanism_output *output)
+{
+    double q_dot[MECHANISM_MOST_COORDINATES], u_dot[MECHANISM_MOST_SPEEDS];
+    if (accelerate(self, motion, tau, u_dot, output))
+        return 1;
+    note_carrier(self, motion, u_dot, output);
+    ld_mstmm_rates(self->chain, motion->q, motion->u, q_dot);
+    memcpy(state_dot, q_dot, (size_t)self->q_count * sizeof *q_dot);
+    memcpy(state_dot + self->q_count, u_dot, (size_t)self->u_count * sizeof *u_dot);
+    for (int k = 0; k < self->u_count; k++)
+        if (!isfinite(u_dot[k]))
+            return 1;
+    return 0;
+}
+
 int mechanism_evaluate(const mechanism_system *self, const mechanism_input *input,
                        const double *state, const mechanism_motion *motion, double *state_dot,
                        mechanism_output *output)
 {
     double tau[MECHANISM_MOST_SPEEDS], *wrench = output->wrench;
-    double q_dot[MECHANISM_MOST_COORDINATES], u_dot[MECHANISM_MOST_SPEEDS];
-    ld_mstmm *chain = self->chain;
+    const ld_mstmm *chain = self->chain;
     memset(tau, 0, (size_t)chain->u_count * sizeof *tau);
     memset(wrench, 0, 6 * (size_t)chain->element_count * sizeof *wrench);
     memset(output->power, 0, sizeof output->power);
-    output->elastic = 0;
-    multibody_move(chain, motion->q, motion->u);
+    output->elastic = output->loss = 0;
+    mechanism_stand(self, motion);
     force_sum sum = {self, motion, wrench, output};
     v3 momentum = momentum_of(self, motion, output);
     output->power[MECHANISM_GRAVITY] = -self->model->gravity * momentum.y;
     note_springs(self, motion, output);
-    load_holds(self, input, motion, state, state_dot, &sum, tau);
+    load_holds(input, state, state_dot, &sum, tau);
     load_joints(self, input, motion, tau, output);
     load_locks(self, motion, state, tau, output);
     load_tube(self, input, &sum);
@@ -247,14 +283,5 @@ int mechanism_evaluate(const mechanism_system *self, const mechanism_input *inpu
     prescribe(self, &motion->carrier, tau);
     for (int k = 0; k < self->later_count; k++)
         state_dot[self->later[k].state] = 0;
-    if (ld_mstmm_accelerations(chain, motion->q, motion->u, tau, wrench, u_dot, NULL))
-        return 1;
-    note_carrier(self, motion, u_dot, output);
-    ld_mstmm_rates(chain, motion->q, motion->u, q_dot);
-    memcpy(state_dot, q_dot, (size_t)self->q_count * sizeof *q_dot);
-    memcpy(state_dot + self->q_count, u_dot, (size_t)self->u_count * sizeof *u_dot);
-    for (int k = 0; k < self->u_count; k++)
-        if (!isfinite(u_dot[k]))
-            return 1;
-    return 0;
+    return find_rates(self, motion, tau, state_dot, output);
 }

@@ -167,9 +167,6 @@ ld_status mechanism_find_freedoms(mechanism_system *self, const base_frame *carr
     int n = ld_mstmm_speed_count(self->chain), rows = 0;
     bool taken[MECHANISM_MOST_SPEEDS] = {0};
     chain_state chain;
-    self->freedom_count = self->u_count;
-    for (int k = 0; k < self->u_count; k++)
-        self->freedom[k] = k;
     if (ld_mstmm_loop_count(self->chain) == 0)
         return LD_OK;
     gather(self, carrier, state, &chain);

@@ -40,16 +40,37 @@ void mechanism_gather(const mechanism_system *self, const base_frame *carrier, c
     v3_store(u + self->u_count + 3, m3_apply_transposed(carrier->A, carrier->w));
 }
 
-static void move_bodies(const mechanism_system *self, mechanism_motion *motion)
+body_motion mechanism_body_motion(const mechanism_system *self, int element)
 {
-    ld_mstmm *chain = self->chain;
+    const ld_mstmm *chain = self->chain;
+    int i = chain->element_node[element];
+    return (body_motion){chain->place[i].linear, chain->place[i].angular,
+                         self->straight[element] ? node_axes(chain, i) : node_body_axes(chain, i),
+                         v4d_v3(chain->motion[i].w)};
+}
+
+static void move_chain(ld_mstmm *chain, const mechanism_motion *motion)
+{
     multibody_move(chain, motion->q, motion->u);
     multibody_place(chain, motion->u);
-    for (int e = 0; e < self->element_count; e++) {
-        int i = chain->element_node[e];
-        motion->body[e] = (body_motion){chain->place[i].linear, chain->place[i].angular,
-                                        node_body_axes(chain, i), v4d_v3(chain->motion[i].w)};
-    }
+}
+
+void mechanism_stand(const mechanism_system *self, const mechanism_motion *motion)
+{
+    if (motion->chain != self->chain || motion->move != self->chain->moves)
+        move_chain(self->chain, motion);
+}
+
+static base_frame frame_of(const mechanism_system *self, const mechanism_motion *motion)
+{
+    const body_motion *body = &motion->body[self->tube.element];
+    v3 arm = m3_apply(body->A, self->tube.at);
+    m3 A = self->tube_turned ? m3_mul(body->A, self->tube.axes) : body->A;
+    return (base_frame){.r = v3_add(body->r, arm),
+                        .v = v3_add(body->v, v3_cross(body->w, arm)),
+                        .A = A,
+                        .q = q_from_matrix(A),
+                        .w = body->w};
 }
 
 void mechanism_move(const mechanism_system *self, double t, const base_frame *carrier,
@@ -58,10 +79,12 @@ void mechanism_move(const mechanism_system *self, double t, const base_frame *ca
     motion->t = t;
     motion->carrier = *carrier;
     mechanism_gather(self, carrier, state, motion->q, motion->u);
-    move_bodies(self, motion);
-    body_motion tube = mechanism_point_motion(motion, &self->tube);
-    motion->tube = (base_frame){
-        .r = tube.r, .v = tube.v, .A = tube.A, .q = q_from_matrix(tube.A), .w = tube.w};
+    move_chain(self->chain, motion);
+    motion->chain = self->chain;
+    motion->move = self->chain->moves;
+    for (int k = 0; k < self->seen_count; k++)
+        motion->body[self->seen[k]] = mechanism_body_motion(self, self->seen[k]);
+    motion->tube = frame_of(self, motion);
 }
 
 // ---- struts
@@ -101,6 +124,12 @@ static double command_at(const ld_table *table, double t, double *rate)
         return row[1];
     *rate = (row[n + 1] - row[1]) / (row[n] - row[0]);
     return row[1] + *rate * (t - row[0]);
+}
+
+double mechanism_command(const mechanism_hold *hold, double t, double *rate)
+{
+    *rate = 0;
+    return hold->control ? command_at(&hold->control->command, t, rate) : hold->command;
 }
 
 // Into [-pi, pi].
@@ -156,10 +185,7 @@ void mechanism_watch(const mechanism_system *self, int index, const mechanism_mo
             measure(m3_column(motion->body[hold->of].A, 0), motion->body[hold->of].w, pitch,
                     report);
     }
-    report->command_rate = 0;
-    report->command = hold->control
-                          ? command_at(&hold->control->command, motion->t, &report->command_rate)
-                          : hold->command;
+    report->command = mechanism_command(hold, motion->t, &report->command_rate);
     report->error = report->command - report->measured;
     if (hold->follows != LD_FOLLOWS_JOINT)
         report->error = wrapped(report->error);

@@ -21,11 +21,18 @@ void mechanism_strut_line(const mechanism_motion *motion, const mechanism_strut 
 void mechanism_gather(const mechanism_system *self, const base_frame *carrier, const double *state,
                       double *q, double *u);
 
-// Frames and motions of all elements at time t [s], from the state.
+// Frames and motions of the elements that are seen at time t [s], from the state.
 void mechanism_move(const mechanism_system *self, double t, const base_frame *carrier,
                     const double *state, mechanism_motion *motion);
 
-// What a hold measures, its command and error; no torque.
+// Takes the chain to a motion, unless it stands there. How an element moves then.
+void mechanism_stand(const mechanism_system *self, const mechanism_motion *motion);
+body_motion mechanism_body_motion(const mechanism_system *self, int element);
+
+// What a hold is to keep at time t [s], and its rate.
+double mechanism_command(const mechanism_hold *hold, double t, double *rate);
+
+// What a hold measures, its command and error; no torque. The chain stands there.
 void mechanism_watch(const mechanism_system *self, int hold, const mechanism_motion *motion,
                      hinge_report *report);
 

@@ -125,7 +125,7 @@ ld_status ld_mstmm_copy(const ld_mstmm *system, ld_mstmm **out, ld_error *error)
     s->pass = NULL;
     s->prescribed = NULL;
     s->known = NULL;
-    s->placed = false;
+    s->known_at = 0;
     s->loop_work = NULL;
     s->dense = (dense_rows){0};
     s->loop_numbers = s->applied = s->zero = s->response = s->trial = NULL;
@@ -429,6 +429,7 @@ ld_status ld_mstmm_build(const ld_mstmm_description *d, ld_mstmm **out, ld_error
         s->gravity = v3_from(d->gravity);
         s->base = (spatial){v3_neg(s->gravity), v3_zero()};
         s->branch_count = d->element_count;
+        s->moves = 1;
         s->singularity = 1;
         s->singular_loop = -1;
         choose_sweep(s);

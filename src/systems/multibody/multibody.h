@@ -209,8 +209,9 @@ struct ld_mstmm {
     double *loop_numbers; // their Y, Z, S, X
     dense_rows dense;
     double *applied;         // wrenches with those of loops' springs
+    uint64_t moves;          // counts the motions; one that an evaluation has used up is gone
     double *known;           // q and u of the latest ld_mstmm_places
-    bool placed;             // the motion is still theirs
+    uint64_t known_at;       // their motion
     double *zero, *response; // [u_count]; the least motion that closes loops
     double *trial;           // coordinates tried
     bool assembled;
@@ -241,7 +242,7 @@ extern const sweep sweep_default, sweep_avx;
 // Motion of all nodes.
 LD_INLINE void multibody_move(ld_mstmm *system, const double *q, const double *u)
 {
-    system->placed = false;
+    system->moves++;
     system->sweep->move(system, q, u);
 }
 
@@ -249,6 +250,15 @@ LD_INLINE void multibody_move(ld_mstmm *system, const double *q, const double *u
 void multibody_place(ld_mstmm *system, const double *u);
 // The same of one node, its parent's known.
 void multibody_place_node(ld_mstmm *system, int i, const double *u);
+
+// Forces of hinges and wrenches on elements, as ld_mstmm_accelerations has them.
+typedef struct multibody_load {
+    const double *tau, *wrench;
+} multibody_load;
+
+// Accelerations from the motion in the workspace, that of these q and u; the sweep overwrites it.
+ld_status multibody_accelerate(ld_mstmm *system, const double *q, const double *u,
+                               const multibody_load *load, double *u_dot, ld_error *error);
 
 // Forces of springs and dampers added to tau (NULL: none) in the workspace, but for the prescribed
 // hinges' accelerations in it; returns them, or tau itself where there are none.

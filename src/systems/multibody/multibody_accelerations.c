@@ -2,20 +2,11 @@
 #include "systems/multibody/closing.h"
 #include "systems/multibody/loop_rows.h"
 
-// NOLINTNEXTLINE(readability-function-size): public
-ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
-                                 const double *tau, const double *wrench, double *u_dot,
-                                 ld_error *error)
+ld_status multibody_accelerate(ld_mstmm *system, const double *q, const double *u,
+                               const multibody_load *load, double *u_dot, ld_error *error)
 {
-    if (!q) {
-        q = system->known;
-        u = q + system->q_count;
-    }
-    tau = multibody_hinge_forces(system, q, u, tau);
-    if (q != system->known || !system->placed)
-        multibody_move(system, q, u);
-    // the sweep uses it up
-    system->placed = false;
+    const double *tau = multibody_hinge_forces(system, q, u, load->tau), *wrench = load->wrench;
+    system->moves++; // the sweep uses it up
     if (system->loop_count > 0) {
         loops_place(system, u);
         wrench = loops_load(system, wrench);
@@ -30,4 +21,18 @@ ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double
     }
     system->sweep->outwards(system, u_dot);
     return LD_OK;
+}
+
+// NOLINTNEXTLINE(readability-function-size): public
+ld_status ld_mstmm_accelerations(ld_mstmm *system, const double *q, const double *u,
+                                 const double *tau, const double *wrench, double *u_dot,
+                                 ld_error *error)
+{
+    if (!q) {
+        q = system->known;
+        u = q + system->q_count;
+    }
+    if (q != system->known || system->known_at != system->moves)
+        multibody_move(system, q, u);
+    return multibody_accelerate(system, q, u, &(multibody_load){tau, wrench}, u_dot, error);
 }

@@ -291,7 +291,7 @@ void ld_mstmm_places(ld_mstmm *system, const double *q, const double *u, ld_mstm
         v3_store(p->rate, v4d_v3(system->motion[i].w));
         memcpy(p->attitude, &attitude, sizeof attitude);
     }
-    system->placed = true;
+    system->known_at = system->moves;
 }
 
 // NOLINTNEXTLINE(readability-function-size): public

@@ -1,24 +1,25 @@
-// The orientating subsystem: its mass data against many point masses, its frames and angles against
-// differences, its energy and momentum, its torques, and both forms of its equations.
+// Chassis and platforms of a vehicle: its mass data against many point masses, its frames and
+// angles against differences, its energy and momentum, its torques, and both forms of its
+// equations.
 #include <stdlib.h>
 
 #include "model/model.h"
 #include "support/check.h"
 #include "support/draw.h"
 #include "support/reference_model.h"
-#include "systems/bases/orientating.h"
+#include "support/vehicle_bodies.h"
 
 static const double PI = 3.141592653589793238462643383280;
 
 typedef struct fixture {
     ld_model model;
-    orientating_system system;
+    vehicle_bodies system;
 } fixture;
 
 static void build(fixture *f, int launching, const int *fired, int fired_count)
 {
     ld_error error;
-    if (orientating_build(&f->system, &f->model, launching, fired, fired_count, &error))
+    if (vehicle_bodies_build(&f->system, &f->model, launching, fired, fired_count, &error))
         fail_msg("%s", error.text);
 }
 
@@ -28,25 +29,32 @@ static void set_up(fixture *f)
     build(f, 8, NULL, 0);
 }
 
+// After a change of the model.
+static void rebuild(fixture *f)
+{
+    vehicle_bodies_free(&f->system);
+    build(f, 8, NULL, 0);
+}
+
 static void tear_down(fixture *f)
 {
-    orientating_free(&f->system);
+    vehicle_bodies_free(&f->system);
     reference_model_free(&f->model);
 }
 
 // A state far from the reference: any attitude, angles and rates.
 static void draw_state(uint64_t *seed, double *state)
 {
-    for (int k = 0; k < ORIENTATING_STATES; k++)
+    for (int k = 0; k < VEHICLE_BODY_STATES; k++)
         state[k] = draw(seed);
-    state[ORIENTATING_QUATERNION] += 1.5;
+    state[VEHICLE_QUATERNION] += 1.5;
     for (int i = 0; i < HINGES; i++)
-        state[ORIENTATING_Z + i] *= 1e4;
+        state[VEHICLE_Z + i] *= 1e4;
 }
 
-static orientating_input draw_input(uint64_t *seed)
+static vehicle_input draw_input(uint64_t *seed)
 {
-    return (orientating_input){
+    return (vehicle_input){
         .chassis_force = draw_v3(seed, 1e5),
         .chassis_moment = draw_v3(seed, 1e5),
         .tube_force = draw_v3(seed, 1e4),
@@ -54,20 +62,20 @@ static orientating_input draw_input(uint64_t *seed)
     };
 }
 
-static orientating_output evaluate(const fixture *f, const orientating_input *input, double t,
-                                   const double *state, orientating_motion *motion,
-                                   double *state_dot)
+static vehicle_output evaluate(const fixture *f, const vehicle_input *input, double t,
+                               const double *state, vehicle_motion *motion, double *state_dot)
 {
-    orientating_output output;
-    orientating_motion_at(&f->system, t, state, motion);
-    assert_int_equal(orientating_evaluate(&f->system, input, state, motion, state_dot, &output), 0);
+    vehicle_output output;
+    vehicle_bodies_move(&f->system, t, state, motion);
+    assert_int_equal(vehicle_bodies_evaluate(&f->system, input, state, motion, state_dot, &output),
+                     0);
     return output;
 }
 
 // The state after the time h at its present rate.
 static void advance(const double *state, double h, const double *rate, double *out)
 {
-    for (int k = 0; k < ORIENTATING_STATES; k++)
+    for (int k = 0; k < VEHICLE_BODY_STATES; k++)
         out[k] = state[k] + h * rate[k];
 }
 
@@ -227,18 +235,18 @@ static void test_mass_data(void **context)
     uint64_t seed = 1;
     double energy_error = 0, momentum_error = 0;
     for (int sample = 0; sample < 100; sample++) {
-        double state[ORIENTATING_STATES];
-        orientating_motion motion;
+        double state[VEHICLE_BODY_STATES];
+        vehicle_motion motion;
         draw_state(&seed, state);
-        orientating_motion_at(&f.system, 0, state, &motion);
+        vehicle_bodies_move(&f.system, 0, state, &motion);
         const base_frame *c = &motion.chassis;
         v3 v = m3_apply_transposed(c->A, c->v), w = m3_apply_transposed(c->A, c->w);
         double energy = cloud_energy(chassis, v, w);
         v3 momentum = m3_apply(c->A, cloud_momentum(chassis, v, w));
 
         v = v3_add(v, v3_cross(w, v3_make(-1.2, 0.6, 0)));
-        w.y += state[ORIENTATING_RATE + HINGE_AZIMUTH];
-        m3 A = m3_rotation_y(state[ORIENTATING_ANGLE + HINGE_AZIMUTH]);
+        w.y += state[VEHICLE_RATE + HINGE_AZIMUTH];
+        m3 A = m3_rotation_y(state[VEHICLE_ANGLE + HINGE_AZIMUTH]);
         v = m3_apply_transposed(A, v);
         w = m3_apply_transposed(A, w);
         m3 A_I = m3_mul(c->A, A);
@@ -246,15 +254,15 @@ static void test_mass_data(void **context)
         momentum = v3_add(momentum, m3_apply(A_I, cloud_momentum(azimuth, v, w)));
 
         v = v3_add(v, v3_cross(w, v3_make(-0.6, 0.7, 0)));
-        w.z += state[ORIENTATING_RATE + HINGE_ELEVATION];
-        A = m3_rotation_z(state[ORIENTATING_ANGLE + HINGE_ELEVATION]);
+        w.z += state[VEHICLE_RATE + HINGE_ELEVATION];
+        A = m3_rotation_z(state[VEHICLE_ANGLE + HINGE_ELEVATION]);
         v = m3_apply_transposed(A, v);
         w = m3_apply_transposed(A, w);
         A_I = m3_mul(A_I, A);
         energy += cloud_energy(elevation, v, w);
         momentum = v3_add(momentum, m3_apply(A_I, cloud_momentum(elevation, v, w)));
 
-        double by_system = orientating_kinetic_energy(&f.system, state);
+        double by_system = vehicle_bodies_kinetic_energy(&f.system, state);
         energy_error = worst(energy_error, by_system / energy - 1);
         momentum_error = worst_v3(momentum_error, v3_sub(motion.momentum, momentum)) /
                          fmax(v3_norm(momentum), 1);
@@ -276,7 +284,7 @@ static void test_reference_mass(void **context)
     double tube = 3 * f.model.tubes.section[0].mass_per_length + 8 + 60;
     CHECK_NEAR("elevation platform, all loaded [kg]", f.system.elevation_mass + tube, 2682, 0.4);
     CHECK_NEAR("three bodies [kg]", f.system.mass - f.system.elevation_mass, 11700, 1e-9);
-    orientating_free(&f.system);
+    vehicle_bodies_free(&f.system);
 
     // every other tube fired or empty: frame, tubes and tails are left
     int fired[16];
@@ -303,17 +311,17 @@ static void test_rates_of_motion(void **context)
     const double h = 1e-3;
     double point = 0, turn = 0, quaternion = 0, angle = 0;
     for (int sample = 0; sample < 100; sample++) {
-        double state[ORIENTATING_STATES], rate[ORIENTATING_STATES], near[ORIENTATING_STATES];
+        double state[VEHICLE_BODY_STATES], rate[VEHICLE_BODY_STATES], near[VEHICLE_BODY_STATES];
         draw_state(&seed, state);
-        orientating_motion motion, other;
-        orientating_input input = draw_input(&seed);
+        vehicle_motion motion, other;
+        vehicle_input input = draw_input(&seed);
         evaluate(&f, &input, 0, state, &motion, rate);
         v3 v = v3_zero();
         m3 A_dot = m3_diagonal(0, 0, 0);
         double measured_rate[HINGES] = {0};
         for (int k = 0; k < 4; k++) {
             advance(state, place[k] * h, rate, near);
-            orientating_motion_at(&f.system, 0, near, &other);
+            vehicle_bodies_move(&f.system, 0, near, &other);
             v = v3_axpy(v, weight[k] / h, other.tube.r);
             A_dot = m3_add(A_dot, m3_scale(weight[k] / h, other.tube.A));
             for (int i = 0; i < HINGES; i++) {
@@ -348,12 +356,12 @@ static void test_measured_angles(void **context)
     (void)context;
     fixture f;
     set_up(&f);
-    double state[ORIENTATING_STATES] = {0};
-    state[ORIENTATING_QUATERNION] = -2; // any length, either sign
-    state[ORIENTATING_ANGLE + HINGE_AZIMUTH] = 2.7;
-    state[ORIENTATING_ANGLE + HINGE_ELEVATION] = 0.4;
-    orientating_motion motion;
-    orientating_motion_at(&f.system, 0, state, &motion);
+    double state[VEHICLE_BODY_STATES] = {0};
+    state[VEHICLE_QUATERNION] = -2; // any length, either sign
+    state[VEHICLE_ANGLE + HINGE_AZIMUTH] = 2.7;
+    state[VEHICLE_ANGLE + HINGE_ELEVATION] = 0.4;
+    vehicle_motion motion;
+    vehicle_bodies_move(&f.system, 0, state, &motion);
     CHECK_NEAR("yaw [rad]", motion.hinge[HINGE_AZIMUTH].measured, 2.7, 1e-15);
     CHECK_NEAR("pitch [rad]", motion.hinge[HINGE_ELEVATION].measured, 0.4, 1e-15);
     CHECK_BELOW("x axis points left, to -z", motion.tube.A.a[2][0] + cos(0.4) * sin(2.7), 1e-15);
@@ -373,18 +381,18 @@ static void check_balances(fixture *f, uint64_t seed, const char *what)
     const double h = 1e-4;
     double energy_error = 0, momentum_error = 0, angular_error = 0;
     for (int sample = 0; sample < 100; sample++) {
-        double state[ORIENTATING_STATES], rate[ORIENTATING_STATES], near[ORIENTATING_STATES];
+        double state[VEHICLE_BODY_STATES], rate[VEHICLE_BODY_STATES], near[VEHICLE_BODY_STATES];
         draw_state(&seed, state);
-        orientating_motion motion;
-        orientating_input input = draw_input(&seed);
+        vehicle_motion motion;
+        vehicle_input input = draw_input(&seed);
         for (int i = 0; i < HINGES; i++)
-            input.rest[i] = (hinge_rest){draw(&seed), 1e4 * draw(&seed)};
-        orientating_output output = evaluate(f, &input, 0, state, &motion, rate);
+            input.rest[i] = (hold_rest){draw(&seed), 1e4 * draw(&seed)};
+        vehicle_output output = evaluate(f, &input, 0, state, &motion, rate);
         v3 force = m3_apply(motion.tube.A, input.tube_force);
         v3 moment = m3_apply(motion.tube.A, input.tube_moment);
         double power = power_of(input.chassis_force, input.chassis_moment, &motion.chassis) +
                        power_of(force, moment, &motion.tube);
-        for (int k = 0; k < ORIENTATING_POWERS; k++)
+        for (int k = 0; k < VEHICLE_BODY_POWERS; k++)
             power += output.power[k];
 
         double energy_rate = 0, scale = 0;
@@ -392,8 +400,8 @@ static void check_balances(fixture *f, uint64_t seed, const char *what)
         for (int k = 0; k < 4; k++) {
             double linear[3], angular[3];
             advance(state, place[k] * h, rate, near);
-            double energy = orientating_kinetic_energy(&f->system, near);
-            ld_mstmm_momentum(f->system.chain, near, near + ORIENTATING_V, linear, angular);
+            double energy = vehicle_bodies_kinetic_energy(&f->system, near);
+            ld_mstmm_momentum(f->system.mechanism.chain, near, near + VEHICLE_V, linear, angular);
             energy_rate += weight[k] / h * energy;
             momentum_rate = v3_axpy(momentum_rate, weight[k] / h, v3_from(linear));
             angular_rate = v3_axpy(angular_rate, weight[k] / h, v3_from(angular));
@@ -434,6 +442,7 @@ static void test_balances(void **context)
     check_balances(&f, 3, "stabilisers");
     f.model.platform.azimuth.lock = (ld_hinge_lock){true, 1e6, 1e4};
     f.model.platform.elevation.lock = (ld_hinge_lock){true, 2e6, 1e4};
+    rebuild(&f);
     check_balances(&f, 4, "locks");
     tear_down(&f);
 }
@@ -446,16 +455,16 @@ static void test_forms_agree(void **context)
     uint64_t seed = 5;
     double difference = 0, loss = 0;
     for (int sample = 0; sample < 1000; sample++) {
-        double state[ORIENTATING_STATES], reduced[ORIENTATING_STATES], paper[ORIENTATING_STATES];
+        double state[VEHICLE_BODY_STATES], reduced[VEHICLE_BODY_STATES], paper[VEHICLE_BODY_STATES];
         draw_state(&seed, state);
-        orientating_motion motion;
-        orientating_input input = draw_input(&seed);
-        f.system.formulation = LD_FORMULATION_REDUCED;
+        vehicle_motion motion;
+        vehicle_input input = draw_input(&seed);
+        f.system.mechanism.overall = false;
         evaluate(&f, &input, 0, state, &motion, reduced);
-        f.system.formulation = LD_FORMULATION_OVERALL;
+        f.system.mechanism.overall = true;
         loss = worst(loss, evaluate(&f, &input, 0, state, &motion, paper).loss);
         double size = 0, off = 0;
-        for (int k = ORIENTATING_V; k < ORIENTATING_Z; k++) {
+        for (int k = VEHICLE_V; k < VEHICLE_Z; k++) {
             size = fmax(size, fabs(reduced[k]));
             off = worst(off, paper[k] - reduced[k]);
         }
@@ -469,17 +478,16 @@ static void test_forms_agree(void **context)
 // ---- torques
 
 // A level chassis at rest with the platform at the given yaw and pitch and their rates.
-static orientating_output at_rest(const fixture *f, double t, const double angle[HINGES],
-                                  const double rate[HINGES], const double z[HINGES],
-                                  const orientating_input *input, orientating_motion *motion,
-                                  double *state_dot)
+static vehicle_output at_rest(const fixture *f, double t, const double angle[HINGES],
+                              const double rate[HINGES], const double z[HINGES],
+                              const vehicle_input *input, vehicle_motion *motion, double *state_dot)
 {
-    double state[ORIENTATING_STATES] = {0};
-    state[ORIENTATING_QUATERNION] = 1;
+    double state[VEHICLE_BODY_STATES] = {0};
+    state[VEHICLE_QUATERNION] = 1;
     for (int i = 0; i < HINGES; i++) {
-        state[ORIENTATING_ANGLE + i] = angle[i];
-        state[ORIENTATING_RATE + i] = rate[i];
-        state[ORIENTATING_Z + i] = z[i];
+        state[VEHICLE_ANGLE + i] = angle[i];
+        state[VEHICLE_RATE + i] = rate[i];
+        state[VEHICLE_Z + i] = z[i];
     }
     return evaluate(f, input, t, state, motion, state_dot);
 }
@@ -490,6 +498,7 @@ static void give_corner(fixture *f)
     ld_table *table = &f->model.platform.azimuth.stabiliser.command;
     free(table->data);
     *table = reference_table(3, 2, (double[]){0, 0, 1, 2, 3, 0});
+    rebuild(f);
 }
 
 static void test_stabiliser(void **context)
@@ -499,9 +508,9 @@ static void test_stabiliser(void **context)
     set_up(&f);
     give_corner(&f);
     const double none[HINGES] = {0}, z[HINGES] = {123, -456};
-    const orientating_input input = {0};
-    orientating_motion motion;
-    double dot[ORIENTATING_STATES];
+    const vehicle_input input = {0};
+    vehicle_motion motion;
+    double dot[VEHICLE_BODY_STATES];
     const hinge_report *azimuth = &motion.hinge[HINGE_AZIMUTH];
     const hinge_report *elevation = &motion.hinge[HINGE_ELEVATION];
 
@@ -518,13 +527,14 @@ static void test_stabiliser(void **context)
     // T = kp e + kd e_dot + z; yaw 0.99 of 1 commanded, turning at 1.95 of 2
     double expected = 4e6 * 0.01 + 3e5 * 0.05 + 123;
     f.model.platform.azimuth.stabiliser.torque_limit = 1e6;
+    rebuild(&f);
     at_rest(&f, 0.5, (double[]){0.99, 0.345}, (double[]){1.95, 0.02}, z, &input, &motion, dot);
     CHECK_NEAR("azimuth torque by yaw [N m]", azimuth->torque, expected, 1e-8);
-    CHECK_NEAR("its integral's rate [N m/s]", dot[ORIENTATING_Z], 4e6 * 0.01, 1e-8);
+    CHECK_NEAR("its integral's rate [N m/s]", dot[VEHICLE_Z], 4e6 * 0.01, 1e-8);
     double e = 19.8 * PI / 180 - 0.345;
     expected = 6e6 * e - 4e5 * 0.02 - 456;
     CHECK_NEAR("elevation torque by pitch [N m]", elevation->torque, expected, 1e-8);
-    CHECK_NEAR("its integral's rate [N m/s]", dot[ORIENTATING_Z + 1], 6e6 * e, 1e-8);
+    CHECK_NEAR("its integral's rate [N m/s]", dot[VEHICLE_Z + 1], 6e6 * e, 1e-8);
 
     // the error goes the short way round
     at_rest(&f, 1, (double[]){-3, 0}, none, none, &input, &motion, dot);
@@ -539,7 +549,7 @@ static void test_torque_limit(void **context)
     fixture f;
     set_up(&f);
     const double still[HINGES] = {0}, limit = 5e4;
-    const orientating_input input = {0};
+    const vehicle_input input = {0};
     const struct {
         double yaw, z, torque, z_dot;
         bool limited;
@@ -552,12 +562,12 @@ static void test_torque_limit(void **context)
         {0.001, -1.1 * limit, -limit, 0, true} //
     };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
-        orientating_motion motion;
-        double dot[ORIENTATING_STATES];
+        vehicle_motion motion;
+        double dot[VEHICLE_BODY_STATES];
         at_rest(&f, 0, (double[]){row[k].yaw, 0}, still, (double[]){row[k].z, 0}, &input, &motion,
                 dot);
         CHECK_NEAR("torque [N m]", motion.hinge[HINGE_AZIMUTH].torque, row[k].torque, 1e-9);
-        CHECK_NEAR("integral's rate [N m/s]", dot[ORIENTATING_Z], row[k].z_dot, 1e-9);
+        CHECK_NEAR("integral's rate [N m/s]", dot[VEHICLE_Z], row[k].z_dot, 1e-9);
         assert_int_equal(motion.hinge[HINGE_AZIMUTH].limited, row[k].limited);
     }
     tear_down(&f);
@@ -569,18 +579,18 @@ static void test_friction_and_locks(void **context)
     fixture f;
     set_up(&f);
     const double angle[HINGES] = {0.03, 0.2}, rate[HINGES] = {1e-3, -2e-3}, z[HINGES] = {1e6, 7};
-    orientating_input input = {.rest = {{0.01, 30}, {0.25, 1e4}}};
-    orientating_motion motion;
-    double dot[ORIENTATING_STATES];
+    vehicle_input input = {.rest = {{0.01, 30}, {0.25, 1e4}}};
+    vehicle_motion motion;
+    double dot[VEHICLE_BODY_STATES];
     const hinge_report *azimuth = &motion.hinge[HINGE_AZIMUTH];
     const hinge_report *elevation = &motion.hinge[HINGE_ELEVATION];
 
     // friction comes on top of a torque at its limit
-    orientating_output output = at_rest(&f, 0, angle, rate, z, &input, &motion, dot);
+    vehicle_output output = at_rest(&f, 0, angle, rate, z, &input, &motion, dot);
     CHECK_NEAR("azimuth friction [N m]", azimuth->friction, -0.5 - 200 / sqrt(2), 1e-12);
     CHECK_NEAR("elevation friction [N m]", elevation->friction, 1.6 + 600 / sqrt(5), 1e-12);
     CHECK_NEAR("azimuth torque [N m]", azimuth->torque, 5e4, 0);
-    CHECK_NEAR("power of friction [W]", output.power[ORIENTATING_FRICTION],
+    CHECK_NEAR("power of friction [W]", output.power[VEHICLE_FRICTION],
                1e-3 * azimuth->friction - 2e-3 * elevation->friction, 1e-15);
     input.linear = true;
     at_rest(&f, 0, angle, rate, z, &input, &motion, dot);
@@ -588,9 +598,10 @@ static void test_friction_and_locks(void **context)
 
     // a lock in place of the stabiliser, without limit
     f.model.platform.elevation.lock = (ld_hinge_lock){true, 1e7, 1e5};
+    rebuild(&f);
     at_rest(&f, 0, angle, rate, z, &input, &motion, dot);
     CHECK_NEAR("locked [N m]", elevation->torque, 1e4 + 1e7 * 0.05 + 1e5 * 2e-3, 1e-8);
-    CHECK_BELOW("its integral rests", dot[ORIENTATING_Z + HINGE_ELEVATION], 0);
+    CHECK_BELOW("its integral rests", dot[VEHICLE_Z + HINGE_ELEVATION], 0);
 
     // held: the given torques and nothing else
     input.held = true;
@@ -607,12 +618,13 @@ static void test_not_finite(void **context)
     (void)context;
     fixture f;
     set_up(&f);
-    double state[ORIENTATING_STATES] = {[ORIENTATING_QUATERNION] = 1}, dot[ORIENTATING_STATES];
-    const orientating_input input = {.tube_force = {0, NAN, 0}};
-    orientating_motion motion;
-    orientating_output output;
-    orientating_motion_at(&f.system, 0, state, &motion);
-    assert_int_not_equal(orientating_evaluate(&f.system, &input, state, &motion, dot, &output), 0);
+    double state[VEHICLE_BODY_STATES] = {[VEHICLE_QUATERNION] = 1}, dot[VEHICLE_BODY_STATES];
+    const vehicle_input input = {.tube_force = {0, NAN, 0}};
+    vehicle_motion motion;
+    vehicle_output output;
+    vehicle_bodies_move(&f.system, 0, state, &motion);
+    assert_int_not_equal(vehicle_bodies_evaluate(&f.system, &input, state, &motion, dot, &output),
+                         0);
     tear_down(&f);
 }
 
