@@ -82,7 +82,7 @@ static void each_sample_is_a_run(void **state)
     assert_true(counts.done == SAMPLES && counts.failed == 0);
     ld_study_data *data;
     ld_error error;
-    const ld_study_values *values;
+    const ld_study_values *values = NULL;
     const char *names[FACTORS + RESULTS];
     memcpy(names, factors, sizeof factors);
     memcpy(names + FACTORS, results, sizeof results);

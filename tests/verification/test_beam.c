@@ -31,8 +31,12 @@ static ld_tubes unit_tube(int elements, int modes, ld_mode_span span)
                                      .bending_stiffness = 1,
                                      .torsion_stiffness = 1,
                                      .polar_inertia = 1},
-                      .modes = {modes, modes < LD_NT ? modes : LD_NT, modes < LD_NA ? modes : LD_NA,
-                                elements, span, 0.01}};
+                      .modes = {.bending = modes,
+                                .torsion = modes < LD_NT ? modes : LD_NT,
+                                .axial = modes < LD_NA ? modes : LD_NA,
+                                .elements = elements,
+                                .span = span,
+                                .damping = 0.01}};
 }
 
 static void add_support(ld_tubes *model, double at, double K, double Kr)
