@@ -65,7 +65,7 @@ typedef struct ld_mstmm_beam {
     int bending, torsion, axial; ///< number of modes: bending per plane
     int elements;                ///< finite elements at least; 0: 40
     double damping;              ///< [-] ratio, of the modes clamped at x = 0
-    ld_mode_span span;           ///< LD_SPAN_FREE_FREE, or clamped shapes
+    ld_mode_span span;           ///< LD_SPAN_FREE_FREE, LD_SPAN_TIP_LOADED, or clamped
     int geometric_stiffness;     ///< other than 0: axial forces stiffen or soften bending
     int reserved_number;         ///< 0
     double shear_coefficient;    ///< [-] k of k G A of round sections, with rotary inertia; G A is

@@ -40,7 +40,12 @@ typedef struct ld_section {
 } ld_section;
 
 /// How the shapes of a tube or beam are held.
-typedef enum ld_mode_span { LD_SPAN_SUPPORTED, LD_SPAN_CLAMPED, LD_SPAN_FREE_FREE } ld_mode_span;
+typedef enum ld_mode_span {
+    LD_SPAN_SUPPORTED,
+    LD_SPAN_CLAMPED, ///< at the rear end
+    LD_SPAN_FREE_FREE,
+    LD_SPAN_TIP_LOADED, ///< clamped, the last ones static shapes of a force and a moment at the tip
+} ld_mode_span;
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

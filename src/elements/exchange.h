@@ -53,9 +53,11 @@ typedef struct launching_load {
 // What comes from outside at one instant.
 typedef struct launching_input {
     base_frame base;
-    double thrust;      // [N]
-    double since;       // [s] the ignition, for the pressure
-    int pressure_piece; // of its table over time, from 1; else 1; 0: not lit
+    const base_frame *station; // of a flexible base, by support: T as the section that carries it
+                               // goes; NULL: the base carries all
+    double thrust;             // [N]
+    double since;              // [s] the ignition, for the pressure
+    int pressure_piece;        // of its table over time, from 1; else 1; 0: not lit
     rocket_mass mass;
     moving_air air;                   // about the rocket; read where it feels it
     const aerodynamics *aerodynamics; // of the whole rocket, on an open guide; NULL: none
@@ -137,11 +139,13 @@ typedef struct launching_output {
     v3 air_force, air_moment; // [N], [N m] of the air on it, about the mass centre, in R
     double drift;             // [m/s] n . v_rel, zero but for the step error
     double power[POWER_COUNT];
-    double elastic;             // [J] of supports and modes
-    v3 base_force, base_moment; // [N], [N m] on the base, moment about T's origin, in T
-    double y_dot[6];            // overall form alone: derivative of y
-    double condition;           // overall form alone: of L_I Q L_O^T of the tube
-    bool fell_back;             // overall form alone
+    double elastic;                        // [J] of supports and modes
+    v3 base_force, base_moment;            // [N], [N m] on the base, moment about T's origin, in T
+    guide_wrench station[LD_MAX_SUPPORTS]; // in its place where there are stations: on each, about
+                                           // its origin, in its axes
+    double y_dot[6];                       // overall form alone: derivative of y
+    double condition;                      // overall form alone: of L_I Q L_O^T of the tube
+    bool fell_back;                        // overall form alone
     adaptor_report adaptor[LD_MAX_ADAPTORS];
     slide_report slide[LD_MAX_SUPPORTS]; // of the supports that are slides, in their order
     shoe_report shoe[LD_MAX_ADAPTORS];   // on surfaces alone

@@ -264,6 +264,7 @@ static int residual(const problem *the, const double *y, double *r)
         base->kind->dynamics->rest_of(base, y + launcher->base_at, &input.rest);
     if (the->dead) {
         dead_load(the, &input, &out.launching);
+        input.launching.station = NULL;
         if (launcher_evaluate_base(launcher, &input, the->phase, y, &out))
             return -1;
     } else {

@@ -233,8 +233,9 @@ static double line_mass(const ld_section *section, int count, double length)
 static void feet_and_drives_in_the_summary(void **state)
 {
     (void)state;
-    static const char *const still[] = {"environment.wind=none", "run.output_step.tube=0.1 ms"};
-    ld_model model = read_text("include: ../tests/data/multibody/launcher.yaml\n", still, 2);
+    static const char *const still[] = {"environment.wind=none", "run.output_step.tube=0.1 ms",
+                                        "run.max_step=0.05 ms"};
+    ld_model model = read_text("include: ../tests/data/multibody/launcher.yaml\n", still, 3);
     const ld_mechanism *given = &model.base.mechanism;
     const ld_tubes *tubes = &model.tubes;
     recorded_run run;

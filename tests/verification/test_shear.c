@@ -321,12 +321,39 @@ static void test_deflection(void **state)
     CHECK_BELOW("tip's turn, relative", turned, 1e-3);
 }
 
+// With the static shapes of tip loads among four, the same is exact but for the turn of the frame.
+static void test_tip_loaded_shapes(void **state)
+{
+    (void)state;
+    const ld_section s = rod();
+    const double tip[3] = {length, 0, 0}, zero[MOST] = {0};
+    double kGA = shear_coefficient * shear_modulus * PI * radius * radius;
+    double by_force = pow(length, 3) / (3 * s.bending_stiffness) + length / kGA;
+    double by_moment = length / s.bending_stiffness, deflection = 0, turn = 0;
+    ld_mstmm *system = build(LD_HINGE_WELD, LD_SPAN_TIP_LOADED, 4, shear_coefficient);
+    double q[MOST] = {0}, needed[MOST], at_rest[MOST];
+    ld_mstmm_forces(system, q, zero, zero, NULL, at_rest);
+    for (int j = 0; j < 4; j++) {
+        q[j] = 1e-6;
+        ld_mstmm_point point = ld_mstmm_locate(system, q, zero, 0, tip);
+        ld_mstmm_forces(system, q, zero, zero, NULL, needed);
+        q[j] = 0;
+        double shape = point.position[1] / 1e-6, slope = 2 * point.attitude[3] / 1e-6;
+        double square = (needed[j] - at_rest[j]) / 1e-6;
+        deflection += shape * shape / square;
+        turn += slope * slope / square;
+    }
+    CHECK_BELOW("tip's deflection by a force, relative", deflection / by_force - 1, 1e-8);
+    CHECK_BELOW("tip's turn by a moment, relative", turn / by_moment - 1, 1e-8);
+    ld_mstmm_free(system);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_frequencies), cmocka_unit_test(test_planes),
         cmocka_unit_test(test_integrals),   cmocka_unit_test(test_shapes_of_another_span),
-        cmocka_unit_test(test_deflection),
+        cmocka_unit_test(test_deflection),  cmocka_unit_test(test_tip_loaded_shapes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,28 +94,47 @@ LD_INLINE double supports_stop_press(const support_set *self, int index, int sto
     return stop_press(&self->support[k].slide, stop, -report->travel, -report->rate);
 }
 
+// What carries a support, against the tube.
+typedef struct support_carrier {
+    m3 A_TR;
+    v3 r; // [m] of R's origin, in T
+    v3 v, w;
+    quat q_TR;
+} support_carrier;
+
+LD_INLINE void support_carrier_load(const base_frame *base, const tube_state *tube,
+                                    support_carrier *to)
+{
+    to->A_TR = m3_mul(m3_transpose(base->A), tube->A_IR);
+    to->r = m3_apply_transposed(base->A, v3_sub(tube->r, base->r));
+    to->v = m3_apply_transposed(base->A, base->v);
+    to->w = m3_apply_transposed(base->A, base->w);
+    quat q_TI = {base->q.w, -base->q.x, -base->q.y, -base->q.z};
+    quat q = q_multiply(q_TI, tube->q_IR);
+    double norm = 1 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    to->q_TR = (quat){norm * q.w, norm * q.x, norm * q.y, norm * q.z};
+}
+
 // Support springs and dampers (model.md, section 4).
 LD_INLINE void supports_add(const int lanes, const support_set *self, const tube_system *guide,
                             launching_instant *now)
 {
-    const base_frame *base = &now->input->base;
+    const base_frame *base = &now->input->base, *station = now->input->station;
     const tube_state *tube = &now->tube;
     tube_force *h = &now->on_tube;
     launching_output *out = now->out;
-    m3 A_TR = m3_mul(m3_transpose(base->A), tube->A_IR);
-    v3 r = m3_apply_transposed(base->A, v3_sub(tube->r, base->r));
-    v3 base_v = m3_apply_transposed(base->A, base->v),
-       base_w = m3_apply_transposed(base->A, base->w);
-    quat q_TI = {base->q.w, -base->q.x, -base->q.y, -base->q.z};
-    quat q_TR = q_multiply(q_TI, tube->q_IR);
-    double norm = 1 / sqrt(q_TR.w * q_TR.w + q_TR.x * q_TR.x + q_TR.y * q_TR.y + q_TR.z * q_TR.z);
-    q_TR = (quat){norm * q_TR.w, norm * q_TR.x, norm * q_TR.y, norm * q_TR.z};
+    support_carrier carrier;
+    support_carrier_load(base, tube, &carrier);
     double damping = 0, stored = 0, work = 0;
     int slides = 0;
     out->base_force = out->base_moment = v3_zero();
     for (int k = 0; k < self->count; k++) {
         const tube_support *support = &self->support[k];
         double twist = 0, twist_dot = 0;
+        if (__builtin_expect(station != NULL, 0))
+            support_carrier_load(&station[k], tube, &carrier);
+        const m3 A_TR = carrier.A_TR;
+        v3 base_v = carrier.v, base_w = carrier.w;
         for (int j = 0; j < guide->flexible.nt; j++) {
             twist += support->tau[j] * tube->modal.t[j];
             twist_dot += support->tau[j] * tube->modal.t_dot[j];
@@ -131,13 +150,13 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
         v3 th_dot = v3_make(twist_dot, -tube->row_z_dot[2 * k + 1], tube->row_y_dot[2 * k + 1]);
         m3 Jl = rv_left_jacobian(th);
         // displacement and its rate, in base axes
-        v3 place = v3_add(r, m3_apply(A_TR, P));
+        v3 place = v3_add(carrier.r, m3_apply(A_TR, P));
         v3 d = v3_make(place.x - support->x, place.y, place.z);
         v3 v_P = m3_apply(A_TR, v3_add(v3_add(tube->v, v3_cross(tube->w, P)), u_dot));
         v3 v_base = v3_add(base_v, v3_cross(base_w, place));
         v3 d_dot = v3_sub(v_P, v_base);
         // rotation vector and relative rate, in base axes
-        v3 phi = rv_of_quaternion(q_multiply(q_TR, rv_quaternion(th)));
+        v3 phi = rv_of_quaternion(q_multiply(carrier.q_TR, rv_quaternion(th)));
         v3 w_rel = v3_sub(m3_apply(A_TR, v3_add(tube->w, m3_apply(Jl, th_dot))), base_w);
         v3 spring = v3_mul(support->K, d), moment = v3_mul(support->Kr, phi);
         v3 damper = v3_mul(support->C, d_dot), twister = v3_mul(support->Cr, w_rel);
@@ -156,8 +175,13 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
             out->slide[slides++] = (slide_report){-d.x, -d_dot.x, slide.force};
         }
         work += v3_dot(f_T, v_base) + v3_dot(m_T, base_w);
-        out->base_force = v3_sub(out->base_force, f_T);
-        out->base_moment = v3_sub(out->base_moment, v3_add(m_T, v3_cross(place, f_T)));
+        v3 about = v3_add(m_T, v3_cross(place, f_T));
+        if (__builtin_expect(station != NULL, 0)) {
+            out->station[k] = (guide_wrench){v3_neg(f_T), v3_neg(about)};
+        } else {
+            out->base_force = v3_sub(out->base_force, f_T);
+            out->base_moment = v3_sub(out->base_moment, about);
+        }
         // on the tube, in R
         v3 f = m3_apply_transposed(A_TR, f_T), m = m3_apply_transposed(A_TR, m_T);
         v3 mu = m3_apply_transposed(Jl, m), m_R = v3_add(m, v3_cross(P, f));

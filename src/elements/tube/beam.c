@@ -67,7 +67,7 @@ ld_status beam_create(beam *self, const ld_mstmm_beam *given, const char *name, 
                    .torsion = given->torsion,
                    .axial = given->axial,
                    .elements = given->elements ? given->elements : DEFAULT_ELEMENTS,
-                   .span = given->span == LD_SPAN_FREE_FREE ? LD_SPAN_FREE_FREE : LD_SPAN_CLAMPED,
+                   .span = given->span == LD_SPAN_SUPPORTED ? LD_SPAN_CLAMPED : given->span,
                    .damping = given->damping,
                    .shear_coefficient = given->shear_coefficient};
     ld_error reason = {0};

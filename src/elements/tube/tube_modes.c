@@ -330,6 +330,30 @@ static ld_status add_clamped_modes(const tied_line *self, int m, elastic_modes *
     return LD_OK;
 }
 
+// The lowest clamped modes and, as the last ones, what a force and a moment at the tip bend:
+// nothing converges slower than clamped modes under the body that a beam carries there.
+static ld_status add_tip_loaded_modes(const tied_line *self, int m, elastic_modes *modes,
+                                      ld_error *error)
+{
+    const tube_line *line = self->line;
+    int w = line->width, n = line->n;
+    ld_status status = m > w ? add_clamped_modes(self, m - w, modes, error) : LD_OK;
+    for (int load = 0; load < w && modes->count < m && !status; load++) {
+        // the elastic stiffness is E: an element's amplitude is the load times its shape there
+        double *part = &modes->part[modes->count * n];
+        for (int i = 0; i < n; i++)
+            part[i] = line->shape[i * n + n - w + load];
+        double length = sqrt(dot(n, part, part)),
+               size = take_out(n, modes->count, modes->part, part);
+        if (size < 1e-9 * length)
+            break;
+        for (int i = 0; i < n; i++)
+            part[i] /= size;
+        modes->count++;
+    }
+    return status;
+}
+
 // How many of what is held the line follows as a rigid one: of slopes alone one, of a single value
 // one, else as many as it has rigid shapes.
 static int held_by_rigid_shapes(const line_ties *ties, int width)
@@ -350,6 +374,8 @@ static ld_status find_modes(const tied_line *self, ld_mode_span span, int m, ela
     modes->count = 0;
     if (span == LD_SPAN_CLAMPED)
         return add_clamped_modes(self, m, modes, error);
+    if (span == LD_SPAN_TIP_LOADED)
+        return add_tip_loaded_modes(self, m, modes, error);
     if (span == LD_SPAN_FREE_FREE)
         return add_free_modes(&untied, m, m, modes, error);
     // what is held besides the rigid shapes moves in some of free modes: it bears forces

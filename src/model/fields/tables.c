@@ -846,7 +846,8 @@ static const field_block guide_block = {.fields = guide_fields,
 
 static const field_row tubes_fields[] = {
     {"on", WORD(ld_tubes, on), .initial_doc = "none",
-     .doc = "body or beam of a base of kind multibody that carries them"},
+     .doc = "body or beam of a base of kind multibody that carries them; on a beam each support "
+            "rides on its own section"},
     {"layout", BLOCK(ld_tubes, layout, layout_block), .initial_doc = "one tube",
      .doc = "where the tubes are"},
     {"empty", INTEGERS(ld_tubes, empty, empty_count, 1, 10000, LD_MAX_TUBES), .initial_doc = "none",

@@ -45,6 +45,8 @@ const field_block body_block = {.fields = body_fields};
 static const double beam_modes[] = {4};
 static const field_word geometric_words[] = {
     {"no", LD_GEOMETRIC_NO}, {"yes", LD_GEOMETRIC_YES}, {NULL, 0}};
+static const field_word beam_span_words[] = {
+    {"tip-loaded", LD_SPAN_TIP_LOADED}, {"clamped", LD_SPAN_CLAMPED}, {NULL, 0}};
 static const field_row beam_mode_fields[] = {
     {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(4),
      .initials = beam_modes, .doc = "bending modes a plane"},
@@ -55,6 +57,10 @@ static const field_row beam_mode_fields[] = {
      .doc = "finite elements along the beam, at least"},
     {"damping", NUMBER(ld_modes, damping, ""), FROM_TO(0, 1), DEFAULT(0.01),
      .doc = "damping ratio of the modes clamped at the rear end"},
+    {"span", CHOICE(ld_modes, span, beam_span_words), DEFAULT(LD_SPAN_TIP_LOADED),
+     .doc =
+         "boundary conditions of the modes: clamped at the rear end; tip-loaded: the last ones of "
+         "them replaced by the static shapes of a force and a moment at the tip"},
     {"geometric_stiffness", CHOICE(ld_modes, geometric_stiffness, geometric_words),
      DEFAULT(LD_GEOMETRIC_YES),
      .doc = "geometric stiffness: axial forces stiffen or soften bending"},

@@ -43,6 +43,7 @@ static void find_launching_input(const partitioned_steps *self, double t, const 
                                  launching_input *input)
 {
     held_frame_at(&self->tube, t - self->t, &input->base);
+    input->station = NULL;
     simulation_surround(launch_of(self), t, y, input);
 }
 

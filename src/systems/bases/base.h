@@ -131,8 +131,9 @@ typedef union base_rest {
 
 // What acts on a base.
 typedef struct base_load {
-    v3 force, moment; // [N], [N m] of the tube, about T's origin, in T
-    jet_wrench jet;   // of a vehicle, on its platform
+    v3 force, moment;            // [N], [N m] of the tube, about T's origin, in T
+    const guide_wrench *station; // and on each station, in its axes; NULL: it has none
+    jet_wrench jet;              // of a vehicle, on its platform
     base_rest rest;
     bool held;   // it carries what `rest` says, whatever drives it (equilibrium)
     bool linear; // no Coulomb friction, its drives linear (equilibrium, linearisation)
@@ -219,6 +220,9 @@ struct base_interface {
     // Frame T at time t [s] and the base's state.
     void (*find_frame)(const base_system *self, double t, const double *state, base_frame *tube,
                        base_found *found);
+    // T as the sections go that carry the supports, by support; returns or is NULL: the base
+    // carries them as one body.
+    const base_frame *(*stations)(const base_system *self, const base_found *found);
     // Yaw, pitch, roll [rad] for output; NULL: those of T.
     void (*angles)(const base_system *self, double t, double angles[3]);
     // First and last time [s] that its table covers; NULL: all.

@@ -426,11 +426,17 @@ const mechanism_system *base_as_multibody(const base_system *self)
     return self->kind == &base_multibody ? mechanism_of(self) : NULL;
 }
 
+static const base_frame *stations(const base_system *self, const base_found *found)
+{
+    return mechanism_of(self)->station_count > 0 ? found->mechanism.station : NULL;
+}
+
 const base_interface base_multibody = {
     .build = build,
     .free = mechanism_base_free,
     .share = mechanism_base_share,
     .find_frame = mechanism_base_find_frame,
+    .stations = stations,
     .span = mechanism_base_span,
     .next_corner = mechanism_base_next_corner,
     .next_sample = mechanism_base_next_sample,

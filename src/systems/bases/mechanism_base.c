@@ -318,6 +318,7 @@ int mechanism_base_evaluate(const base_system *self, const base_found *found, co
     mechanism_input input = {
         .tube_force = v3_add(load->force, load->jet.force),
         .tube_moment = v3_add(load->moment, load->jet.moment),
+        .station = load->station,
         .rest = load->rest.hold,
         .held = load->held,
         .linear = load->linear || self->disturbed,

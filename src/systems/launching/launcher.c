@@ -54,6 +54,8 @@ void launcher_place(const launcher_system *self, double t, const double *state,
 {
     self->base.kind->find_frame(&self->base, t, state + self->base_at, &input->launching.base,
                                 &input->found);
+    input->launching.station =
+        self->base.kind->stations ? self->base.kind->stations(&self->base, &input->found) : NULL;
 }
 
 int launcher_evaluate_base(const launcher_system *self, const launcher_input *input,
@@ -63,6 +65,7 @@ int launcher_evaluate_base(const launcher_system *self, const launcher_input *in
     base_load load = {
         .force = output->launching.base_force,
         .moment = output->launching.base_moment,
+        .station = input->launching.station ? output->launching.station : NULL,
         .jet = input->jet,
         .rest = input->rest,
         .held = input->held,

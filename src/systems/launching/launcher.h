@@ -53,7 +53,8 @@ void launcher_free_share(launcher_system *self);
 // Takes the tube of firing i as the flexible one, the others with the base.
 void launcher_select(launcher_system *self, int i);
 
-// The base's frames at time t [s] and state: fills input->launching.base and input->found.
+// The base's frames at time t [s] and state: fills input->launching.base and input->found, where
+// input->launching.station points.
 void launcher_place(const launcher_system *self, double t, const double *state,
                     launcher_input *input);
 

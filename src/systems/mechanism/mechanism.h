@@ -13,6 +13,7 @@
 #include <stdint.h>
 
 #include "elements/base_frame.h"
+#include "elements/guide_forces.h"
 #include "elements/tube/work.h"
 #include "launchdyn/model.h"
 #include "launchdyn/mstmm.h"
@@ -21,9 +22,9 @@
 #include "systems/mechanism/stabiliser.h"
 
 enum {
-    // each force element may have a point of a beam at each end, so may the tube
-    MECHANISM_MOST_POINTS =
-        2 * LD_MAX_STRUTS + 2 * LD_MAX_BUSHINGS + LD_MAX_FEET + LD_MAX_LOADS + LD_MAX_DRAGS + 1,
+    // each force element may have a point of a beam at each end, so may the tube and its supports
+    MECHANISM_MOST_POINTS = 2 * LD_MAX_STRUTS + 2 * LD_MAX_BUSHINGS + LD_MAX_FEET + LD_MAX_LOADS +
+                            LD_MAX_DRAGS + 1 + LD_MAX_SUPPORTS,
     MECHANISM_MOST_ELEMENTS = LD_MAX_BODIES + LD_MAX_BEAMS + MECHANISM_MOST_POINTS + 1, // carrier
     MECHANISM_MOST_COORDINATES = 192, // the carrier's included
     MECHANISM_MOST_SPEEDS = 160,
@@ -120,7 +121,9 @@ typedef struct mechanism_system {
     mechanism_point foot[LD_MAX_FEET], load[LD_MAX_LOADS], drag[LD_MAX_DRAGS];
     mechanism_point tube; // T's origin, and its axes
     bool tube_turned;     // those are not the body's
-    int freedom_count;    // speeds that the others follow (mechanism_loops.h)
+    int station_count;    // supports that a beam carries, 0: a body carries them
+    mechanism_point station[LD_MAX_SUPPORTS]; // T as fixed to the section that carries one
+    int freedom_count;                        // speeds that the others follow (mechanism_loops.h)
     int freedom[MECHANISM_MOST_SPEEDS];
     int feet_at, state_count; // without the marching subsystem's
     int wheels;               // element on which they are; MECHANISM_GROUND: none
@@ -158,6 +161,7 @@ typedef struct body_motion {
 // The whole at an instant: frame T, the motions of elements, coordinates and speeds of the chain.
 typedef struct mechanism_motion {
     base_frame tube;
+    base_frame station[LD_MAX_SUPPORTS];
     base_frame carrier;
     double t; // [s]
     const ld_mstmm *chain;
@@ -168,6 +172,7 @@ typedef struct mechanism_motion {
 
 typedef struct mechanism_input {
     v3 tube_force, tube_moment;   // [N], [N m] on the tube's body about T's origin, in T
+    const guide_wrench *station;  // and on each station, in its axes; NULL: on none
     v3 wheel_force, wheel_moment; // on the wheels' body, about its origin, in I
     const double *command, *rate; // [hold_count] added to commands and their rates; NULL: nothing
     double density;               // [kg/m3] of the air

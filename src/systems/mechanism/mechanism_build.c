@@ -61,7 +61,7 @@ static void add_beam(element_list *list, const ld_beam *given, ld_mstmm_beam *be
                         .damping = given->modes.damping,
                         .geometric_stiffness = given->modes.geometric_stiffness == LD_GEOMETRIC_YES,
                         .shear_coefficient = given->modes.shear_coefficient,
-                        .span = LD_SPAN_CLAMPED};
+                        .span = given->modes.span};
     list->element[list->count++] = (ld_mstmm_element){.name = given->name, .beam = beam};
 }
 
@@ -202,6 +202,21 @@ static mechanism_point point_of(mechanism_system *self, element_list *list, cons
     point.element = i;
     point.at = v3_zero();
     return point;
+}
+
+// A section of the beam for each support where that stands unbent, T fixed to it.
+static void find_stations(mechanism_system *self, element_list *list, const mechanism_plan *plan,
+                          v3 rear)
+{
+    const ld_tubes *tubes = &self->model->tubes;
+    self->station_count = tubes->support_count;
+    for (int k = 0; k < tubes->support_count; k++) {
+        v3 arm = m3_apply(plan->mount, v3_make(tubes->support[k].at, 0, 0));
+        double at[3];
+        v3_store(at, v3_add(rear, arm));
+        self->station[k] = point_of(self, list, plan->carries, at, plan->mount);
+        self->station[k].at = v3_neg(arm);
+    }
 }
 
 static void find_points(mechanism_system *self, element_list *list)
@@ -351,7 +366,9 @@ static ld_status build_chain(mechanism_system *self, element_list *list, const m
     v3_store(at, v3_add(first, row));
     self->tube = point_of(self, list, plan->carries, at, plan->mount);
     self->tube_turned = !m3_is_identity(&plan->mount);
-    if (!is_beam(given, mechanism_body(given, plan->carries))) {
+    if (is_beam(given, mechanism_body(given, plan->carries))) {
+        find_stations(self, list, plan, v3_from(at));
+    } else {
         ld_status status = add_tubes(self, list, tubes, error);
         if (status)
             return status;

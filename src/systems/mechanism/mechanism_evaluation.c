@@ -194,6 +194,11 @@ static void load_tube(const mechanism_system *self, const mechanism_input *input
                       const force_sum *sum)
 {
     const base_frame *tube = &sum->motion->tube;
+    for (int k = 0; k < self->station_count && input->station; k++) {
+        const base_frame *station = &sum->motion->station[k];
+        force_add(sum, &self->station[k], station->r, m3_apply(station->A, input->station[k].f),
+                  m3_apply(station->A, input->station[k].m));
+    }
     force_add(sum, &self->tube, tube->r, m3_apply(tube->A, input->tube_force),
               m3_apply(tube->A, input->tube_moment));
     if (self->wheels < 0)

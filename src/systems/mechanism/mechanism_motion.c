@@ -73,6 +73,12 @@ static base_frame frame_of(const mechanism_system *self, const mechanism_motion 
                         .w = body->w};
 }
 
+static base_frame station_frame(const mechanism_motion *motion, const mechanism_point *point)
+{
+    body_motion of = mechanism_point_motion(motion, point);
+    return (base_frame){.r = of.r, .v = of.v, .A = of.A, .q = q_from_matrix(of.A), .w = of.w};
+}
+
 void mechanism_move(const mechanism_system *self, double t, const base_frame *carrier,
                     const double *state, mechanism_motion *motion)
 {
@@ -85,6 +91,8 @@ void mechanism_move(const mechanism_system *self, double t, const base_frame *ca
     for (int k = 0; k < self->seen_count; k++)
         motion->body[self->seen[k]] = mechanism_body_motion(self, self->seen[k]);
     motion->tube = frame_of(self, motion);
+    for (int k = 0; k < self->station_count; k++)
+        motion->station[k] = station_frame(motion, &self->station[k]);
 }
 
 // ---- struts

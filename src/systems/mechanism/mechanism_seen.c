@@ -19,6 +19,8 @@ static void find_elements(mechanism_system *self)
         self->straight[e] = m3_is_identity(&chain->body_axes[e]);
     see(self, self->tube.element);
     see(self, self->wheels);
+    for (int k = 0; k < self->station_count; k++)
+        see(self, self->station[k].element);
     for (int i = 0; i < self->hold_count; i++) {
         int joint = self->hold[i].joint;
         see(self, joint < 0 ? -1 : self->joint_element[joint]);
