@@ -105,9 +105,9 @@ static void test_vehicle(void **state)
                "base.drive.wheels: no wheel is driven; a speed of 10 m/s requires one");
     REFUSED_OF(VEHICLE, m.platform.elevation.mass = NAN,
                "platform.elevation.mass: nan kg is not allowed; expected > 0 kg");
-    REFUSED_OF(VEHICLE, m.platform.elevation.stabiliser.command.data[1] = 1.5,
-               "platform.elevation.stabiliser.command: 85.9437 deg; a pitch command must lie "
-               "between -80 and 80 deg");
+    REFUSED_OF(VEHICLE, m.platform.elevation.stabiliser.command.data[1] = 1.56,
+               "platform.elevation.stabiliser.command: 89.3814 deg; a pitch command must lie "
+               "between -89 and 89 deg");
     REFUSED_OF(VEHICLE, m.platform.azimuth.stabiliser.command.columns = 3,
                "platform.azimuth.stabiliser.command: does not have the required columns");
     REFUSED_OF(VEHICLE, m.platform.azimuth.stabiliser.kd = NAN,

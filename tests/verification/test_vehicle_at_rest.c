@@ -53,6 +53,28 @@ static void tyres_carry_the_weight(void **state)
     reference_model_free(&model);
 }
 
+// Almost upright, the platform stands at its command; a parked vehicle does without a drive.
+static void almost_upright(void **state)
+{
+    (void)state;
+    ld_model model;
+    vehicle(&model, 0);
+    model.platform.elevation.stabiliser.command.data[1] = 88 * pi / 180;
+    model.run.end = LD_END_TIP;
+    ld_summary with = summary_of_run(&model);
+    CHECK_BELOW("elevation and the chassis' pitch against 88 deg [rad]",
+                with.equilibrium.hinge[1].angle + with.equilibrium.chassis.pitch - 88 * pi / 180,
+                1e-14);
+    CHECK_BELOW("energy residual, of the largest work", with.energy.residual_relative, 1e-9);
+    model.base.vehicle.drive = (ld_drive){0, 0};
+    ld_summary without = summary_of_run(&model);
+    CHECK_BELOW("rates without a drive: differences [rad/s]",
+                fabs(without.rocket[0].tip_off.pitch_rate - with.rocket[0].tip_off.pitch_rate) +
+                    fabs(without.rocket[0].tip_off.yaw_rate - with.rocket[0].tip_off.yaw_rate),
+                1e-15);
+    reference_model_free(&model);
+}
+
 // ---- released ----
 
 enum { SPEEDS = 13, RATES = 12 };
@@ -126,6 +148,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tyres_carry_the_weight),
+        cmocka_unit_test(almost_upright),
         cmocka_unit_test(nothing_moves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -150,10 +150,10 @@ static void command_rules(const rule_set *rules, const char *path, const ld_tabl
     rising_rule(rules, row, command, "s", false);
     for (size_t i = 0; i < command->rows && pitch; i++) {
         double angle = command->data[i * command->columns + 1] * RADIAN;
-        if (fabs(angle) >= 80)
+        if (fabs(angle) >= 89)
             report_broken(rules, row, (int)i + 1,
-                          "%g deg; a pitch command must lie between -80 and "
-                          "80 deg",
+                          "%g deg; a pitch command must lie between -89 and "
+                          "89 deg",
                           angle);
     }
 }
