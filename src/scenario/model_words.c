@@ -82,7 +82,7 @@ static void describe_base(FILE *stream, const ld_model *model)
         fputs(looks[base->looks], stream);
     if (!ld_model_number(model, "base.elevation", &elevation, NULL)) {
         fputs("; ", stream);
-        if (base->kind == LD_BASE_MULTIBODY)
+        if (model_has_multibody(model))
             fprintf(stream, "%s on %s, ", model_guide_word(model), VISIBLE(model->tubes.on));
         else
             fputs("launcher ", stream);
