@@ -856,7 +856,6 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
     if (!status && !simulation_linearise(&state, false, false, &system, &unused) &&
         may_grow(&system, LEAST_RATE))
         eigenvalues(&state, &system, LEAST_RATE, &found, &unused);
-    launch_state_end(&state);
     // what grows by less than a thousandth of its rate is within the differences' error
     for (int i = 0; i < found.count; i++)
         if (found.pole[i].real >= LEAST_RATE &&
@@ -869,6 +868,7 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
                     "%s: unstable: about its equilibrium a motion of %.3g Hz grows by %.3g 1/s "
                     "(launchdyn modes lists all)",
                     fed.feeder, fed.pole.imaginary / TWO_PI, fed.pole.real);
+    launch_state_end(&state); // the feeder's name is the base's
     free(found.pole);
     free(system.J);
     return status;
