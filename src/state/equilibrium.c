@@ -413,6 +413,18 @@ static void guess_contacts(const launch_state *self, int i, int j, v3 pull, doub
     x[X_THETA] = -slope * pull.z / lean;
 }
 
+static void report_wheels(const launcher_system *launcher, const marching_output *marching,
+                          ld_equilibrium_summary *summary)
+{
+    summary->wheel_count = model_base(launcher->base.model)->vehicle.wheel_count;
+    for (int j = 0; j < summary->wheel_count; j++) {
+        const wheel_report *wheel = &marching->wheel[j];
+        summary->wheel[j].tyre_force = wheel->normal;
+        summary->wheel[j].tyre_deflection = wheel->deflection;
+        v3_store(summary->wheel[j].suspension, wheel->travel);
+    }
+}
+
 // Of a base that is a vehicle.
 static void report_vehicle(const launcher_system *launcher, const launcher_output *out,
                            const double *y, ld_equilibrium_summary *summary)
@@ -422,13 +434,7 @@ static void report_vehicle(const launcher_system *launcher, const launcher_outpu
     const mechanism_system *vehicle = mechanism_of(&launcher->base);
     const double *base = y + launcher->base_at;
     m3 A = q_matrix(q_from(base + VEHICLE_QUATERNION));
-    summary->wheel_count = model_base(launcher->model)->vehicle.wheel_count;
-    for (int j = 0; j < summary->wheel_count; j++) {
-        const wheel_report *wheel = &out->base.report.marching.wheel[j];
-        summary->wheel[j].tyre_force = wheel->normal;
-        summary->wheel[j].tyre_deflection = wheel->deflection;
-        v3_store(summary->wheel[j].suspension, wheel->travel);
-    }
+    report_wheels(launcher, &out->base.report.marching, summary);
     summary->chassis.y = base[VEHICLE_R + 1];
     summary->chassis.pitch = asin(A.a[1][0]);
     summary->chassis.roll = atan2(-A.a[1][2], A.a[1][1]);
@@ -445,18 +451,11 @@ static void report_multibody(const launcher_system *launcher, const launcher_inp
 {
     base_instant instant;
     const multibody_instant *now = &instant.multibody;
-    const ld_base *base = model_base(launcher->base.model);
-    const ld_mechanism *given = &base->mechanism;
+    const ld_mechanism *given = &model_base(launcher->base.model)->mechanism;
     if (!model_has_multibody(launcher->base.model))
         return;
     base_find(&launcher->base, &input->found, &out->base, y + launcher->base_at, &instant);
-    summary->wheel_count = base->vehicle.wheel_count;
-    for (int j = 0; j < summary->wheel_count; j++) {
-        const wheel_report *wheel = &now->marching.wheel[j];
-        summary->wheel[j].tyre_force = wheel->normal;
-        summary->wheel[j].tyre_deflection = wheel->deflection;
-        v3_store(summary->wheel[j].suspension, wheel->travel);
-    }
+    report_wheels(launcher, &now->marching, summary);
     for (int i = 0; i < given->drive_count; i++) {
         summary->drive[i].measured = now->drive[i].measured;
         summary->drive[i].torque = now->drive[i].torque;

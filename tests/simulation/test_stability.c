@@ -1,4 +1,5 @@
 // Stabilisers that cannot hold their platforms are refused before the run, and no others.
+#include "launchdyn/scenario.h"
 #include "model/model.h"
 #include "quantities/summary.h"
 #include "state/simulation.h"
@@ -33,6 +34,25 @@ static void unstable_stabiliser(void **state)
     assert_int_equal(start(&model, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "platform.azimuth.stabiliser: unstable"));
     reference_model_free(&model);
+}
+
+// A parked trailer rolls freely: an eigenvalue of 0 twice, which errors of the differences part to
+// +-0.046 1/s. Nothing of it grows.
+static void a_rolling_trailer_does_not_grow(void **state)
+{
+    (void)state;
+    ld_model *model;
+    ld_error error;
+    ld_messages messages = {0};
+    ld_simulation *simulation;
+    assert_int_equal(ld_scenario_read(LD_SOURCE_DIR "/tests/data/multibody/rolling.yaml", NULL, 0,
+                                      &model, &messages),
+                     LD_OK);
+    if (ld_simulation_create(model, &simulation, &error))
+        fail_msg("%s", error.text);
+    CHECK_BELOW("growth of a rolling trailer [1/s]", simulation->growing.real, 0);
+    ld_simulation_free(simulation);
+    ld_model_free(model);
 }
 
 // Routh's bound for one platform on a base that stands still: J s^3 + kd s^2 + kp s + ki is stable
@@ -107,6 +127,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unstable_stabiliser),
+        cmocka_unit_test(a_rolling_trailer_does_not_grow),
         cmocka_unit_test(bound_of_the_integral_gain),
         cmocka_unit_test(bound_of_the_lag),
         cmocka_unit_test(vehicle_that_tips),
