@@ -13,6 +13,7 @@ typedef struct flight_instant {
     double mass, thrust;
     flight_flow flow;
     double acceleration, margin, drag_area;
+    v3 w_dot, force;    // against inertial axes, in B; force: specific, at O1
     flight_place place; // on a round or WGS 84 Earth
 } flight_instant;
 
@@ -34,6 +35,12 @@ static const quantity flight[] = {
     {"rocket.wx", "rad/s", "rate of the rocket against inertial axes, in B", AT(pose.w.x)},
     {"rocket.wy", "rad/s", "rate of the rocket against inertial axes, in B", AT(pose.w.y)},
     {"rocket.wz", "rad/s", "rate of the rocket against inertial axes, in B", AT(pose.w.z)},
+    {"rocket.wx_dot", "rad/s2", "rate of rocket.wx", AT(w_dot.x)},
+    {"rocket.wy_dot", "rad/s2", "rate of rocket.wy", AT(w_dot.y)},
+    {"rocket.wz_dot", "rad/s2", "rate of rocket.wz", AT(w_dot.z)},
+    {"rocket.fx", "m/s2", "specific force (acceleration less gravity) at the rear adaptor, in B", AT(force.x)},
+    {"rocket.fy", "m/s2", "specific force (acceleration less gravity) at the rear adaptor, in B", AT(force.y)},
+    {"rocket.fz", "m/s2", "specific force (acceleration less gravity) at the rear adaptor, in B", AT(force.z)},
     {"rocket.pitch", "rad", "pitch of the rocket's axis in I", AT(angles.pitch)},
     {"rocket.yaw", "rad", "yaw of the rocket's axis in I, positive to the left", AT(angles.yaw)},
     {"rocket.pitch_rate", "rad/s", "rate of rocket.pitch", AT(angles.pitch_rate)},
@@ -89,6 +96,29 @@ ld_status flight_columns(const flight_system *system, quantity_columns *columns,
                                  error);
 }
 
+// Angular acceleration and specific force at O1 = mass centre less c, of whose rate flight.h's
+// v = v_O1 + w x c gives a_O1 = v_dot - alpha x c - w x c_dot - w x (w x c). A point below a
+// parachute has no axes.
+static void find_inertial(const flight_system *system, const flight_phase *phase,
+                          const double *state, const double *rates, flight_instant *now)
+{
+    if (phase->hangs) {
+        now->w_dot = now->force = v3_make(NAN, NAN, NAN);
+        return;
+    }
+    m3 A_NB = m3_rotation_x(state[FLIGHT_ROLL]);
+    m3 A_CB = m3_mul(q_matrix(q_from(state + FLIGHT_Q)), A_NB);
+    v3 w_N = v3_from(state + FLIGHT_W), w = now->pose.w;
+    v3 turning = v3_cross(v3_make(w_N.x, 0, 0), w_N);
+    now->w_dot = m3_apply_transposed(A_NB, v3_sub(v3_from(rates + FLIGHT_W), turning));
+    v3 gravity = earth_gravity(&system->earth, v3_from(state + FLIGHT_R));
+    rocket_mass mass = flight_mass(system, phase, now->t);
+    v3 arm =
+        v3_add(v3_cross(now->w_dot, mass.c), v3_cross(w, v3_add(mass.c_dot, v3_cross(w, mass.c))));
+    v3 felt = v3_sub(v3_from(rates + FLIGHT_V), gravity);
+    now->force = v3_sub(m3_apply_transposed(A_CB, felt), arm);
+}
+
 void flight_row(const flight_system *system, const quantity_columns *columns,
                 const flight_phase *phase, double t, const double *state,
                 double row[FLIGHT_MAX_COLUMNS])
@@ -107,6 +137,7 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     double rates[FLIGHT_STATES];
     flight_rates(system, &rated, t, state, rates);
     now.acceleration = v3_norm(v3_from(rates + FLIGHT_V));
+    find_inertial(system, phase, state, rates, &now);
     m3 A_IB = q_matrix(now.pose.q_IB);
     v3 turn = m3_apply_transposed(system->earth.A_EI, earth_rate(&system->earth));
     v3 w = v3_sub(m3_apply(A_IB, now.pose.w), turn), axis = m3_column(A_IB, 0);

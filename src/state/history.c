@@ -36,6 +36,8 @@ typedef struct launch_instant {
     v3 v_O1;           // in I
     direction_angles angles;
     double spin;
+    v3 w, w_dot, force; // against I, in B; force: specific, at O1
+    rocket_motion motion;
     ld_tip_off tip_off;
     ld_since_ignition since_ignition;
     instant_contact contact[LD_MAX_ADAPTORS];
@@ -129,6 +131,24 @@ static const quantity rocket[] = {
     {"rocket.pitch_rate", "rad/s", "rate of rocket.pitch", AT(angles.pitch_rate)},
     {"rocket.yaw_rate", "rad/s", "rate of rocket.yaw", AT(angles.yaw_rate)},
     {"rocket.spin", "rad/s", "rate of the rocket against I about its axis", AT(spin)},
+    {"center.x", "m", "mass centre, in I", AT(motion.r_C.x)},
+    {"center.y", "m", "mass centre, in I", AT(motion.r_C.y)},
+    {"center.z", "m", "mass centre, in I", AT(motion.r_C.z)},
+    {"center.vx", "m/s", "inertial velocity of the mass centre, in I", AT(motion.v_C.x)},
+    {"center.vy", "m/s", "inertial velocity of the mass centre, in I", AT(motion.v_C.y)},
+    {"center.vz", "m/s", "inertial velocity of the mass centre, in I", AT(motion.v_C.z)},
+};
+// What inertial sensors read: docs/compare.md.
+static const quantity inertial[] = {
+    {"rocket.wx", "rad/s", "rate of the rocket against I, in B", AT(w.x)},
+    {"rocket.wy", "rad/s", "rate of the rocket against I, in B", AT(w.y)},
+    {"rocket.wz", "rad/s", "rate of the rocket against I, in B", AT(w.z)},
+    {"rocket.wx_dot", "rad/s2", "rate of rocket.wx", AT(w_dot.x)},
+    {"rocket.wy_dot", "rad/s2", "rate of rocket.wy", AT(w_dot.y)},
+    {"rocket.wz_dot", "rad/s2", "rate of rocket.wz", AT(w_dot.z)},
+    {"rocket.fx", "m/s2", "specific force (acceleration less gravity) at the rear adaptor, in B", AT(force.x)},
+    {"rocket.fy", "m/s2", "specific force (acceleration less gravity) at the rear adaptor, in B", AT(force.y)},
+    {"rocket.fz", "m/s2", "specific force (acceleration less gravity) at the rear adaptor, in B", AT(force.z)},
 };
 // tip_off: in T, the axes of the undeformed tube on its base; since_ignition: in T as it stood at
 // the ignition.
@@ -252,6 +272,7 @@ static const quantity_group groups[] = {
     {.title = "their rates", .each = EACH_COORDINATE, QUANTITY_ROWS(coordinate_rates)},
     {.title = "tip", QUANTITY_ROWS(tip)},
     {.title = "rocket in its tube", ROCKET, QUANTITY_ROWS(rocket)},
+    {.title = "rate and specific force of the rocket", ROCKET, QUANTITY_ROWS(inertial)},
     {.title = "rocket against the launcher", ROCKET, QUANTITY_ROWS(against_launcher)},
     {.title = "mass and thrust", ROCKET, QUANTITY_ROWS(motor_now)},
     {.title = "each adaptor", .each = EACH_ADAPTOR, ROCKET, QUANTITY_ROWS(contacts)},
@@ -345,9 +366,14 @@ static void find_rocket(const launch_state *self, const double *y, launch_instan
     now->angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(pose.w_B, axis)));
     now->spin = v3_dot(axis, pose.w_B);
-    rocket_motion motion = rocket_motion_of(&pose, input->mass.c, y, at);
-    now->tip_off = tip_off_of(&input->base, &motion);
-    now->since_ignition = since_ignition_of(self, now->t, &motion);
+    const launching_output *out = &now->out.launching;
+    v3 gravity = m3_apply_transposed(A_IR, v3_make(0, -self->launcher.launching.tube.gravity, 0));
+    now->w = m3_apply_transposed(pose.A_RB, pose.w_B);
+    now->w_dot = m3_apply_transposed(pose.A_RB, out->alpha_B);
+    now->force = m3_apply_transposed(pose.A_RB, v3_sub(out->a_O1, gravity));
+    now->motion = rocket_motion_of(&pose, input->mass.c, y, at);
+    now->tip_off = tip_off_of(&input->base, &now->motion);
+    now->since_ignition = since_ignition_of(self, now->t, &now->motion);
     find_contacts(self, now);
 }
 

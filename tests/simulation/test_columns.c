@@ -285,6 +285,28 @@ static void say_against_launcher(instant *at)
     }
 }
 
+// Rates, angular acceleration and specific force by the independent equations, whose R is the
+// state's.
+static void say_inertial(instant *at, const moving *rocket)
+{
+    const launching_layout *where = &at->self->launcher.launching.layout;
+    const double *q = at->y + where->quaternion;
+    m3 A_IR = q_matrix((quat){q[0], q[1], q[2], q[3]});
+    v3 a = m3_apply(A_IR, v3_from(at->out.a_O1)), alpha = m3_apply(A_IR, v3_from(at->out.alpha_B));
+    a.y += at->run->model->gravity;
+    double force[3], rate[3];
+    v3_store(force, m3_apply_transposed(rocket->A, a));
+    v3_store(rate, m3_apply_transposed(rocket->A, alpha));
+    const char *const dots[] = {"x_dot", "y_dot", "z_dot"};
+    expect3(&at->run->book, "rocket.w", xyz, at->place.w_B);
+    expect3(&at->run->book, "rocket.w", dots, rate);
+    expect3(&at->run->book, "rocket.f", xyz, force);
+    v3 center = v3_add(rocket->r, m3_apply(rocket->A, v3_from(at->input.conditions.center)));
+    v3 v = velocity_at(rocket, center);
+    expect3(&at->run->book, "center.", xyz, (double[]){center.x, center.y, center.z});
+    expect3(&at->run->book, "center.v", xyz, (double[]){v.x, v.y, v.z});
+}
+
 static void say_rocket(instant *at)
 {
     column_book *book = &at->run->book;
@@ -318,6 +340,7 @@ static void say_rocket(instant *at)
     expect3(book, "rocket.v", xyz, (double[]){rocket.v.x, rocket.v.y, rocket.v.z});
     expect_direction(book, "rocket.", &rocket);
     expect(book, "rocket.spin", at->place.w_B[0]);
+    say_inertial(at, &rocket);
     expect(book, "rocket.mass", at->input.conditions.mass);
     expect(book, "thrust", at->input.conditions.thrust);
     if (at->run->model->tubes.slot.kind == LD_SLOT_HELIX)
@@ -935,6 +958,7 @@ static const column_bound bounds[] = {
     {"rocket.[yz]_dot", 2e-6, false},
     {"tip.inertial_v?", 4e-9, false},
     {"tip.inertial_*_rate", 1e-9, false},
+    {"rocket.w?_dot", 1e-9, false},
     {"rocket.*_dot", 1e-13, false},
     {"tip_off.*", 3e-13, false},
     {"since_ignition.*", 3e-13, false},
