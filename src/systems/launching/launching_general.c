@@ -121,15 +121,51 @@ static void add_tail(const launching_system *self, const tube_state *tube, int n
     v3_store(h2 + 3, v3_add(v3_from(h2 + 3), m));
 }
 
-// e = M2^-1 B of the directions, from the factor of M2 [n x n], and their products.
-static void load_products(int n, const double *factor, const constraint_set *set,
+// M2 = [M_rr, C; C^T, E], as the modes have unit mass: G G^T = M_rr - C C^T.
+typedef struct condensed_mass {
+    int n;
+    const double *M; // [n x n]
+    double G[36];
+} condensed_mass;
+
+// False where that is not positive definite.
+static bool condense(int n, const double *M, condensed_mass *to)
+{
+    to->n = n;
+    to->M = M;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j <= i; j++) {
+            double sum = M[i * n + j];
+            for (int k = 6; k < n; k++)
+                sum -= M[i * n + k] * M[j * n + k];
+            to->G[6 * i + j] = sum;
+        }
+    return cholesky_factor(6, to->G) == 0;
+}
+
+// b := M2^-1 b.
+static void solve_condensed(const condensed_mass *by, double *b)
+{
+    int n = by->n;
+    for (int i = 0; i < 6; i++)
+        for (int k = 6; k < n; k++)
+            b[i] -= by->M[i * n + k] * b[k];
+    cholesky_solve(6, by->G, b);
+    for (int i = 0; i < 6; i++)
+        for (int k = 6; k < n; k++)
+            b[k] -= by->M[i * n + k] * b[i];
+}
+
+// e = M2^-1 B of the directions, and their products.
+static void load_products(const condensed_mass *M2, const constraint_set *set,
                           double B[][LD_TUBE_SPEEDS], double e[][LD_TUBE_SPEEDS],
                           constraint_products *D)
 {
+    int n = M2->n;
     for (int i = 0; i < set->count + set->sliding; i++) {
         int row = i < set->count ? i : LD_MAX_CONSTRAINTS;
         memcpy(e[row], B[row], sizeof(double) * (size_t)n);
-        cholesky_solve(n, factor, e[row]);
+        solve_condensed(M2, e[row]);
     }
     for (int i = 0; i < set->count; i++) {
         const constraint_direction *p = &set->e[i], *tangent = &set->tangent;
@@ -149,19 +185,20 @@ launching_outcome launching_solve_reduced(const launching_system *self,
     int n = u->n, count = u->c.set.count;
     double M2[LD_TUBE_SPEEDS * LD_TUBE_SPEEDS], e_0[LD_TUBE_SPEEDS],
         e[LD_MAX_CONSTRAINTS + 1][LD_TUBE_SPEEDS];
+    condensed_mass condensed;
     memcpy(M2, u->M, sizeof(double) * (size_t)(n * n));
     memcpy(e_0, u->h, sizeof(double) * (size_t)n);
     add_tail(self, &u->now.tube, n, M2, e_0);
-    if (cholesky_factor(n, M2))
+    if (!condense(n, M2, &condensed))
         return LAUNCHING_NOT_FINITE;
-    cholesky_solve(n, M2, e_0);
+    solve_condensed(&condensed, e_0);
     if (phase->rocket || count) {
         v3 r_a = v3_zero(), r_alpha = v3_zero();
         double r[LD_MAX_CONSTRAINTS];
         constraint_products D;
         if (phase->rocket)
             rocket_solve(&u->now.inertia, u->now.f, u->now.m, &r_a, &r_alpha);
-        load_products(n, M2, &u->c.set, u->B, e, &D);
+        load_products(&condensed, &u->c.set, u->B, e, &D);
         for (int i = 0; i < count; i++) {
             const constraint_direction *p = &u->c.set.e[i];
             r[i] = -(v3_dot(p->G_f, r_a) + v3_dot(p->G_m, r_alpha) -
@@ -195,15 +232,16 @@ void launching_impulse_general(const launching_system *self, const launching_ins
     double M2[LD_TUBE_SPEEDS * LD_TUBE_SPEEDS], h[LD_TUBE_SPEEDS], eta[LD_TUBE_SPEEDS] = {0},
                                                                    x[LD_MAX_CONSTRAINTS];
     double B[LD_MAX_CONSTRAINTS + 1][LD_TUBE_SPEEDS], e[LD_MAX_CONSTRAINTS + 1][LD_TUBE_SPEEDS];
+    condensed_mass condensed;
     constraint_products D;
     *change = (launching_change){.a = v3_zero()};
     const tube_motion motion = {now->tube.w, now->tube.g, state + at->q, state + at->q_dot};
     tube_dynamics_assemble(&self->tube.flexible, &motion, M2, h);
     add_tail(self, &now->tube, n, M2, h);
-    if (cholesky_factor(n, M2))
+    if (!condense(n, M2, &condensed))
         return;
     load_direction_forces(self, now->tube.w, state, set, B);
-    load_products(n, M2, set, B, e, &D);
+    load_products(&condensed, set, B, e, &D);
     ldl_factor(count, LD_MAX_CONSTRAINTS, D.D[0]);
     for (int i = 0; i < count; i++)
         x[i] = -wrong[i];
