@@ -86,6 +86,12 @@ LD_INLINE const double *y_dot_on_z(const modal_state *q)
     return q->planes_differ ? q->y_dot_on_z : q->y_dot;
 }
 
+// How far bending draws a point of the axis along x, with geometric stiffness: -1/2 q . H q, its
+// rate, and its acceleration without those of q.
+typedef struct foreshortening {
+    double shift, rate, pull; // [m], [m/s], [m/s2]
+} foreshortening;
+
 // The deflection of one element as polynomials in xi.
 typedef struct element_motion {
     const packed_element *element;
@@ -95,6 +101,8 @@ typedef struct element_motion {
     LANE_ARRAY(z_dot, 4);
     double t[2], t_dot[2]; // torsion: value at x0, slope
     double a[2], a_dot[2]; // stretch, likewise
+    bool shortened;        // by bending
+    foreshortening before; // then: at x0
 } element_motion;
 
 // A cubic with coefficients c of x^0..3, its first and its second derivative.
@@ -159,7 +167,8 @@ typedef struct tube_force {
     LANE_ARRAY(z, LD_NB);
     double t[LD_NT];
     double a[LD_NA];
-    guide_forces *record; // of each force by its position; NULL: none is kept
+    guide_forces *record;    // of each force by its position; NULL: none is kept
+    const modal_state *bent; // the deflection, with geometric stiffness; else NULL
 } tube_force;
 
 // Everything of the tube that does not depend on forces.

@@ -3,7 +3,7 @@
 #ifndef LD_ELEMENTS_SECTION_H
 #define LD_ELEMENTS_SECTION_H
 
-#include "elements/instant.h"
+#include "elements/shortened.h"
 
 // The deflection along z by shapes of its own.
 LD_OUTLINE void element_load_z(const tube_system *self, const modal_state *q,
@@ -57,6 +57,9 @@ LD_INLINE void element_load(const tube_system *self, const modal_state *q, int i
     motion->t_dot[0] = d0, motion->t_dot[1] = d1;
     motion->a[0] = a0, motion->a[1] = a1;
     motion->a_dot[0] = e0, motion->a_dot[1] = e1;
+    motion->shortened = self->flexible.shortening != NULL;
+    if (__builtin_expect(motion->shortened, 0))
+        element_shorten(self, q, index, motion);
 }
 
 LD_INLINE void section_load(const tube_system *self, const element_motion *motion, double x,
@@ -71,6 +74,8 @@ LD_INLINE void section_load(const tube_system *self, const element_motion *motio
     double uz = poly0(motion->z, xi), uz1 = poly1(motion->z, xi);
     s->P = s->root = v3_make(inside + (motion->a[0] + xi * motion->a[1]), uy, uz);
     s->t = v3_make(1 + motion->a[1], uy1, uz1);
+    if (__builtin_expect(motion->shortened, 0))
+        section_shorten(motion, s);
     s->th = v3_make(motion->t[0] + xi * motion->t[1], -uz1, uy1);
     s->k0 = v3_make(motion->t[1], -poly2(motion->z, xi), poly2(motion->y, xi));
     rv_coefficients k = rv_coefficients_of(v3_norm2(s->th));
@@ -105,6 +110,8 @@ LD_INLINE void section_rates_load(const element_motion *motion, const axis_secti
     r->th_dot = v3_make(motion->t_dot[0] + xi * motion->t_dot[1], -uz1, uy1);
     r->k0_dot = v3_make(motion->t_dot[1], -poly2(motion->z_dot, xi), poly2(motion->y_dot, xi));
     r->w = m3_apply(s->Jl, r->th_dot);
+    if (__builtin_expect(motion->shortened, 0))
+        section_rates_shorten(motion, s, r);
     if (__builtin_expect(s->beyond != 0, 0)) {
         v3 axis = m3_column(s->A, 0);
         v3 axis_dot = v3_cross(r->w, axis);
@@ -125,6 +132,8 @@ LD_INLINE double section_gap(const tube_system *self, const element_motion *moti
                       k.b * th.x * th.z - k.a * th.y);
     v3 P = v3_make(inside + (motion->a[0] + xi * motion->a[1]), poly0(motion->y, xi),
                    poly0(motion->z, xi));
+    if (__builtin_expect(motion->shortened, 0))
+        P.x += shortened_to(motion, xi).shift;
     return v3_dot(axis, v3_sub(C, P)) - (x - inside);
 }
 
@@ -173,6 +182,8 @@ LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const
     h->m = v3_add(h->m, on.m);
     if (__builtin_expect(h->record != NULL, 0))
         guide_forces_add(h->record, s->x, f, on.m);
+    if (__builtin_expect(h->bent != NULL, 0))
+        bend_by_axial_force(self, s->x, f.x, h);
     double xi = s->xi, x2 = xi * xi, x3 = x2 * xi;
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};

@@ -355,6 +355,46 @@ static jet3 axis_point(const jet_scene *scene, jet x)
     return p;
 }
 
+static bool is_shortened(const jet_scene *scene)
+{
+    return scene->dense->model->tubes.modes.geometric_stiffness == LD_GEOMETRIC_YES;
+}
+
+// Adds -1/2 int u'^2 dx of both planes between two places of an element.
+static void add_shortening(const jet_scene *scene, double from, double to, jet *sum)
+{
+    for (int g = 0; g < GAUSS; g++) {
+        jet at = jet_constant(0.5 * (from + to) + 0.5 * (to - from) * gauss_at[g]), square;
+        for (int plane = 0; plane < 2; plane++) {
+            jet slope = family_at(scene, plane ? 'z' : 'y', 1, at);
+            jet_product(&square, &slope, &slope);
+            jet_increase(sum, -0.25 * (to - from) * gauss_weight[g], &square);
+        }
+    }
+}
+
+// How far bending draws the axis point of station x along x: by half the slope's square.
+static jet shortening_to(const jet_scene *scene, jet x)
+{
+    const flexible_tube *tube = scene->dense->tube;
+    jet sum = jet_constant(0), step = x, square = jet_constant(0), slow = jet_constant(0), product;
+    for (int i = 0; i < tube->element_count && tube->element[i].x0 < x.v; i++)
+        add_shortening(scene, tube->element[i].x0, fmin(x.v, tube->element[i].x1), &sum);
+    step.v = 0;
+    jet_accumulate(&square, &step, &step);
+    for (int plane = 0; plane < 2; plane++) {
+        jet here = jet_constant(x.v), slope = family_at(scene, plane ? 'z' : 'y', 1, here);
+        jet bend = family_at(scene, plane ? 'z' : 'y', 2, here);
+        jet_product(&product, &slope, &slope);
+        jet_increase(&slow, -0.5, &product);
+        jet_product(&product, &slope, &bend);
+        product = jet_scale(-0.5, product);
+        jet_accumulate(&sum, &product, &square);
+    }
+    jet_accumulate(&sum, &slow, &step);
+    return sum;
+}
+
 // Rotation vector of the section at station x, in R.
 static jet3 section_turn(const jet_scene *scene, jet x)
 {
@@ -381,6 +421,8 @@ static jet_frame section_in_R(const jet_scene *scene, jet s)
     }
     jet3 phi = section_turn(scene, s);
     section.r = axis_point(scene, s);
+    if (is_shortened(scene))
+        section.r.c[0] = jet_add(section.r.c[0], shortening_to(scene, s));
     section.A = rotation_of(&phi);
     return section;
 }
@@ -471,18 +513,21 @@ static void add_mass(equations *eq, const jet3 *p, double mass, double gravity)
     eq->potential += mass * gravity * p->c[1].v;
 }
 
-// 1/2 I (w_x + phi_x_dot)^2 with w_x = a_z . a_y_dot, a_y and a_z axes of R: Lagrange's equations
-// of a squared rate W = sum W_k x_k_dot, whose W_k depend on the coordinates.
-static void add_polar(equations *eq, const jet_scene *scene, const jet *phi_x, double inertia)
+// 1/2 I (w + phi_dot)^2 with w the rate of R about its axis (-1: none), like w_x = a_z . a_y_dot of
+// its axes a_y and a_z: Lagrange's equations of a squared rate W = sum W_k x_k_dot, whose W_k
+// depend on the coordinates, as I does.
+static void add_turning(equations *eq, const jet_scene *scene, int axis, const jet *phi,
+                        const jet *inertia)
 {
     double form[DENSE_MAX_COORDINATES], curl[DENSE_MAX_COORDINATES];
-    double rate = phi_x->e, rate_dot = phi_x->te;
+    double rate = phi->e, rate_dot = phi->te;
     for (int k = 0; k < eq->n; k++) {
-        form[k] = k < phi_x->n ? phi_x->d[k] : 0;
+        form[k] = k < phi->n ? phi->d[k] : 0;
         curl[k] = 0;
     }
-    for (int i = 0; i < 3; i++) {
-        const jet *a_y = &scene->R.A.c[i][1], *a_z = &scene->R.A.c[i][2];
+    for (int i = 0; i < 3 && axis >= 0; i++) {
+        const jet *a_y = &scene->R.A.c[i][(axis + 1) % 3];
+        const jet *a_z = &scene->R.A.c[i][(axis + 2) % 3];
         rate += a_z->v * a_y->e;
         rate_dot += a_z->v * a_y->te + a_z->e * a_y->e;
         for (int k = 0; k < eq->n; k++) {
@@ -492,12 +537,60 @@ static void add_polar(equations *eq, const jet_scene *scene, const jet *phi_x, d
     }
     for (int j = 0; j < eq->n; j++) {
         for (int k = 0; k <= j; k++)
-            eq->M[j][k] += inertia * form[j] * form[k];
-        eq->h[j] -= inertia * (form[j] * rate_dot + rate * curl[j]);
+            eq->M[j][k] += inertia->v * form[j] * form[k];
+        eq->h[j] -=
+            inertia->v * (form[j] * rate_dot + rate * curl[j]) + inertia->e * rate * form[j];
+        eq->h[j] += j < inertia->n ? 0.5 * inertia->d[j] * rate * rate : 0;
     }
-    eq->kinetic += 0.5 * inertia * rate * rate;
-    for (int i = 0; i < 3; i++)
-        eq->angular_momentum[i] += inertia * rate * scene->R.A.c[i][0].v;
+    eq->kinetic += 0.5 * inertia->v * rate * rate;
+    for (int i = 0; i < 3 && axis >= 0; i++)
+        eq->angular_momentum[i] += inertia->v * rate * scene->R.A.c[i][axis].v;
+}
+
+// A mass that bending draws by s along x of R: m r_R_dot . d/dt(A s e_x), a product of two speeds
+// as squares of their sum and of each; its weight.
+static void add_drawn(equations *eq, const jet_scene *scene, const jet *s, double mass)
+{
+    const double gravity = scene->dense->model->gravity;
+    jet3 axis = jet33_column(&scene->R.A, 0), moved, both = scene->R.r;
+    for (int i = 0; i < 3; i++) {
+        jet_product(&moved.c[i], &axis.c[i], s);
+        jet_increase(&both.c[i], 1, &moved.c[i]);
+        eq->momentum[i] += mass * moved.c[i].e;
+    }
+    add_mass(eq, &both, mass, 0);
+    add_mass(eq, &scene->R.r, -mass, 0);
+    add_mass(eq, &moved, -mass, 0);
+    const double weight[3] = {0, -mass * gravity, 0};
+    add_force(eq->h, &moved, weight);
+    eq->potential += mass * gravity * moved.c[1].v;
+}
+
+// What foreshortening leaves of j0/2 (w_y^2 + w_z^2) + w_z c_y . q_y_dot - w_y c_z . q_z_dot: a
+// share, here of squares, j0/2 ((w_y - f_z)^2 + (w_z + f_y)^2 - f_y^2 - f_z^2), f = c . q_dot/j0.
+static void add_shortened(equations *eq, const jet_scene *scene)
+{
+    const dense_launch *dense = scene->dense;
+    jet eps = jet_constant(0), turn[2] = {jet_constant(0), jet_constant(0)};
+    double j0 = 0;
+    for (int i = 0; i < dense->point_count; i++) {
+        const dense_tube_point *point = &dense->point[i];
+        double first = point->mass * point->at;
+        jet at = jet_constant(point->at), s = shortening_to(scene, at);
+        add_drawn(eq, scene, &s, point->mass);
+        jet_increase(&eps, 2 * first, &s);
+        j0 += first * point->at;
+        for (int plane = 0; plane < 2; plane++) {
+            jet u = family_at(scene, plane ? 'z' : 'y', 0, at);
+            jet_increase(&turn[plane], first, &u);
+        }
+    }
+    jet back = jet_scale(-1, eps);
+    for (int plane = 0; plane < 2; plane++) {
+        turn[plane] = jet_scale((plane ? -1 : 1) / j0, turn[plane]);
+        add_turning(eq, scene, plane ? 1 : 2, &turn[plane], &eps);
+        add_turning(eq, scene, -1, &turn[plane], &back);
+    }
 }
 
 static void add_tube(equations *eq, const jet_scene *scene)
@@ -509,10 +602,12 @@ static void add_tube(equations *eq, const jet_scene *scene)
         jet3 local = axis_point(scene, at), p = point_in(&scene->R, &local);
         add_mass(eq, &p, point->mass, dense->model->gravity);
         if (point->polar != 0) {
-            jet phi_x = family_at(scene, 't', 0, at);
-            add_polar(eq, scene, &phi_x, point->polar);
+            jet phi_x = family_at(scene, 't', 0, at), polar = jet_constant(point->polar);
+            add_turning(eq, scene, 0, &phi_x, &polar);
         }
     }
+    if (is_shortened(scene))
+        add_shortened(eq, scene);
 }
 
 // Points that have mass, mass centre c and inertia J (about it) of a rigid body: a pair at c +- h u

@@ -361,6 +361,50 @@ static void off_clamps(const launching_system *system, const launching_case *c, 
     }
 }
 
+// Displacements of the supports are some millimetres either way: off the front stop and on it, half
+// of those out of it at the end of the stroke.
+static void let_recoil(ld_model *model)
+{
+    for (int i = 0; i < 2; i++)
+        model->tubes.support[i].recoil = (ld_recoil){.present = true,
+                                                     .preload = 2e3 * (1 + i),
+                                                     .stiffness = 4e4,
+                                                     .damping = 900,
+                                                     .quadratic_damping = 300,
+                                                     .friction = 250,
+                                                     .friction_speed = 0.5,
+                                                     .stroke = i ? NAN : 5e-4};
+}
+
+// Bending draws the sections along x, and what acts along x works on that.
+static void geometric_stiffness_equals_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    model.tubes.modes.geometric_stiffness = LD_GEOMETRIC_YES;
+    check_agreement(&model, launching_evaluate, 100, "geometric stiffness");
+    check_agreement(&model, overall, 100, "geometric stiffness, overall");
+    let_recoil(&model);
+    model.tubes.point_mass_count = 1;
+    model.tubes.point_mass[0] = (ld_point_mass){.at = 1.5, .mass = 0.4};
+    model.tubes.modes.axial = 2;
+    check_agreement(&model, launching_evaluate, 60, "the same, axial modes, recoil, point mass");
+    split_planes(&model.tubes);
+    model.tubes.support[0].clamped = 0x2a; // y, roll, pitch
+    model.tubes.support[1].clamped = 0x05; // x, z
+    model.tubes.support[1].recoil.present = false;
+    check_agreement(&model, launching_evaluate, 60, "the same, clamped, planes out of proportion");
+    model.rocket.adaptor_count = 2;
+    model.rocket.adaptor[1] = model.rocket.adaptor[2];
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    check_agreement(&model, launching_evaluate, 60, "the same, ideal adaptors");
+    model.tubes.support[0].clamped = model.tubes.support[1].clamped = 0;
+    check_agreement(&model, overall, 60, "the same without clamps, overall");
+    reference_model_free(&model);
+}
+
 // Two stations held along x, which a tube with axial modes alone can follow: its stretch takes part
 // in what puts it back.
 static void projection_stretches_the_tube(void **state)
@@ -405,21 +449,6 @@ static void air_on_the_emerged_part_equals_dense(void **state)
                     "air, reduced from the general matrix");
     check_agreement(&model, overall, 200, "air, overall");
     reference_model_free(&model);
-}
-
-// Displacements of the supports are some millimetres either way: off the front stop and on it, half
-// of those out of it at the end of the stroke.
-static void let_recoil(ld_model *model)
-{
-    for (int i = 0; i < 2; i++)
-        model->tubes.support[i].recoil = (ld_recoil){.present = true,
-                                                     .preload = 2e3 * (1 + i),
-                                                     .stiffness = 4e4,
-                                                     .damping = 900,
-                                                     .quadratic_damping = 300,
-                                                     .friction = 250,
-                                                     .friction_speed = 0.5,
-                                                     .stroke = i ? NAN : 5e-4};
 }
 
 static void pressure_and_recoil_equal_dense(void **state)
@@ -496,6 +525,7 @@ int main(void)
         cmocka_unit_test(options_equal_dense),
         cmocka_unit_test(ideal_adaptors_equal_dense),
         cmocka_unit_test(clamped_supports_equal_dense),
+        cmocka_unit_test(geometric_stiffness_equals_dense),
         cmocka_unit_test(projection_stretches_the_tube),
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(pressure_and_recoil_equal_dense),

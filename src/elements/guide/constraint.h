@@ -258,6 +258,8 @@ LD_INLINE section_bias bias_of(const tube_state *tube, const constraint_section 
     section_bias bias;
     v3 inner = v3_add(v3_cross(w, s->P), v3_scale(2, r->u_dot));
     bias.gv = v3_axpy(v3_cross(w, inner), section->s_dot, v3_add(v3_cross(w, s->t), r->u1_dot));
+    if (__builtin_expect(section->motion->shortened, 0))
+        bias.gv.x += shortened_to(section->motion, s->xi).pull;
     // gamma_rot = Jl_dot Psi q_dot + w x (Jl Psi q_dot); then the convective part along s
     bias.gw = v3_add(rv_left_jacobian_derivative(s->th, r->th_dot, r->th_dot), v3_cross(w, r->w));
     v3 along =

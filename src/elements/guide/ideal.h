@@ -19,6 +19,8 @@ LD_INLINE v3 tangent_rate(const constraint_section *section)
     if (at->beyond == 0) { // there the axis is straight
         const element_motion *motion = section->motion;
         v3 bend = v3_make(0, poly2(motion->y, at->xi), poly2(motion->z, at->xi));
+        if (__builtin_expect(motion->shortened, 0))
+            bend.x = shortened_bend(motion, at->xi);
         t_dot = v3_axpy(t_dot, section->s_dot, bend);
     }
     return v3_sub(t_dot, v3_cross(section->Om, at->t));

@@ -115,6 +115,17 @@ LD_INLINE void support_carrier_load(const base_frame *base, const tube_state *tu
     to->q_TR = (quat){norm * q.w, norm * q.x, norm * q.y, norm * q.z};
 }
 
+// What foreshortening adds to the displacement along x and to its rate.
+LD_OUTLINE void support_shorten(const tube_support *support, const tube_system *guide,
+                                const modal_state *q, double *shift, double *rate)
+{
+    element_motion motion;
+    element_load(guide, q, support->element, &motion);
+    foreshortening at = shortened_to(&motion, support->x - motion.element->x0);
+    *shift += at.shift;
+    *rate += at.rate;
+}
+
 // Support springs and dampers (model.md, section 4).
 LD_INLINE void supports_add(const int lanes, const support_set *self, const tube_system *guide,
                             launching_instant *now)
@@ -144,6 +155,8 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
             stretch += support->a[j] * tube->modal.a[j];
             stretch_dot += support->a[j] * tube->modal.a_dot[j];
         }
+        if (__builtin_expect(h->bent != NULL, 0))
+            support_shorten(support, guide, h->bent, &stretch, &stretch_dot);
         v3 P = v3_make(support->x + stretch, tube->row_y[2 * k], tube->row_z[2 * k]);
         v3 th = v3_make(twist, -tube->row_z[2 * k + 1], tube->row_y[2 * k + 1]);
         v3 u_dot = v3_make(stretch_dot, tube->row_y_dot[2 * k], tube->row_z_dot[2 * k]);
@@ -202,6 +215,8 @@ LD_INLINE void supports_add(const int lanes, const support_set *self, const tube
             h->t[j] += mu.x * support->tau[j];
         for (int j = 0; j < guide->flexible.na; j++)
             h->a[j] += f.x * support->a[j];
+        if (__builtin_expect(h->bent != NULL, 0))
+            bend_by_axial_force(guide, support->x, f.x, h);
     }
     out->elastic += 0.5 * stored;
     out->power[POWER_SUPPORT_DAMPING] = damping;

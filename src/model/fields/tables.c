@@ -655,6 +655,8 @@ static const field_word span_words[] = {{"supported", LD_SPAN_SUPPORTED},
                                         {"clamped", LD_SPAN_CLAMPED},
                                         {"free-free", LD_SPAN_FREE_FREE},
                                         {NULL, 0}};
+static const field_word geometric_words[] = {
+    {"no", LD_GEOMETRIC_NO}, {"yes", LD_GEOMETRIC_YES}, {NULL, 0}};
 static const field_row modes_fields[] = {
     {"bending", INTEGER(ld_modes, bending, 1, LD_MAX_BENDING_MODES), DEFAULT(7),
      .doc = "bending modes a plane"},
@@ -668,6 +670,9 @@ static const field_row modes_fields[] = {
             "end, or free"},
     {"damping", NUMBER(ld_modes, damping, ""), FROM_TO(0, 1), DEFAULT(0),
      .doc = "damping ratio of the clamped modes of the bare tube"},
+    {"geometric_stiffness", CHOICE(ld_modes, geometric_stiffness, geometric_words),
+     DEFAULT(LD_GEOMETRIC_NO),
+     .doc = "geometric stiffness: axial forces stiffen or soften bending"},
     {0}};
 static const field_block modes_block = {.fields = modes_fields};
 

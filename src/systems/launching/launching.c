@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elements/tail.h"
+#include "elements/tube/shortening.h"
 #include "elements/tube/tube_dynamics.h"
 #include "model/fields/field.h"
 #include "model/parts.h"
@@ -74,6 +75,7 @@ launching_tube launching_take_tube(launching_system *self)
 
 void launching_tube_free(launching_tube *self)
 {
+    shortening_free(self->tube.shortening);
     flexible_tube_free(&self->tube);
     free(self->packed);
     self->packed = NULL;
@@ -91,6 +93,8 @@ static ld_status build_tube(launching_system *self, ld_error *error)
     tube_system *tube = &self->tube;
     ld_error reason = {0};
     ld_status status = flexible_tube_build(&tube->flexible, &self->tubes, &reason);
+    if (!status && self->tubes.modes.geometric_stiffness == LD_GEOMETRIC_YES)
+        status = shortening_build(&tube->flexible, &self->tubes, &reason);
     if (status)
         return ld_fail(error, status == LD_ERR_MEMORY ? status : LD_ERR_INPUT, "%s%s",
                        status == LD_ERR_MEMORY    ? ""
@@ -160,12 +164,18 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
 
 void launching_free(launching_system *self)
 {
+    shortening_free(self->tube.flexible.shortening);
     flexible_tube_free(&self->tube.flexible);
     free(self->tube.packed);
     self->tube.packed = NULL;
     pressure_free(&self->pressure);
     free(self->cut);
     self->cut = NULL;
+}
+
+bool launching_is_general(const launching_system *self)
+{
+    return self->tube.flexible.na > 0 || self->tube.flexible.shortening;
 }
 
 bool launching_holds_places(const launching_system *self)

@@ -78,6 +78,7 @@ LD_INLINE launching_outcome evaluate(const evaluation_kind kind, const launching
     now.out = out;
     memset(out->power, 0, sizeof out->power);
     now.on_tube.record = input->record;
+    now.on_tube.bent = NULL;
     tube_load(lanes, &self->tube, &self->layout, state, &now.tube);
     tube_forces(lanes, &self->tube, &now.tube, &now.on_tube, out);
     supports_add(lanes, &self->supports, &self->tube, &now);
@@ -133,7 +134,7 @@ launching_outcome launching_evaluate(const launching_system *self, const launchi
                                      const launching_phase *phase, const double *state,
                                      launching_output *out)
 {
-    if (self->tube.flexible.na > 0) // axial modes: the fast layout has none
+    if (launching_is_general(self))
         return launching_evaluate_general(self, input, phase, state, out);
     bool few = self->tube.flexible.nbp == 8;
     bool is_usual = few && phase->rocket && !launching_holds_places(self);
@@ -177,7 +178,7 @@ static void change_by_impulse(const launching_system *self, const launching_inst
 {
     int lanes = self->tube.flexible.nbp / 4;
     constrained impulse;
-    if (self->tube.flexible.na > 0) { // the fast layout has no axial ones
+    if (launching_is_general(self)) {
         launching_impulse_general(self, now, set, state, wrong, change);
         return;
     }

@@ -5,7 +5,7 @@
 
 #include "systems/launching/launching.h"
 
-// Finds them, one pass over the elements; of a tube with axial modes from its general mass matrix.
+// Finds them, one pass over the elements; or from the general mass matrix (launching_is_general).
 launching_outcome launching_evaluate(const launching_system *self, const launching_input *input,
                                      const launching_phase *phase, const double *state,
                                      launching_output *output);

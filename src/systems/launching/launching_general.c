@@ -75,6 +75,8 @@ void launching_uncouple(const launching_system *self, const launching_input *inp
     out->condition = 0;
     u->n = 6 + at->nq;
     tube_load(lanes, &self->tube, at, state, &now->tube);
+    if (tube->shortening)
+        now->on_tube.bent = &now->tube.modal;
     const tube_motion motion = {now->tube.w, now->tube.g, q, q_dot};
     tube_dynamics_assemble(tube, &motion, u->M, u->h);
     modal_energies(self, state, out);

@@ -53,6 +53,8 @@ static void load_relative(const launching_system *self, const double *state,
     v3 P2 = v3_zero(), Psi2 = v3_zero(); // beyond the ends the axis is straight
     if (s->beyond == 0) {
         P2 = v3_make(0, poly2(rocket->motion.y, s->xi), poly2(rocket->motion.z, s->xi));
+        if (rocket->motion.shortened)
+            P2.x = shortened_bend(&rocket->motion, s->xi);
         Psi2 = v3_make(0, -6 * rocket->motion.z[3], 6 * rocket->motion.y[3]);
     }
     v3 th_dot = v3_axpy(r->th_dot, s_dot, s->k0);
@@ -65,6 +67,8 @@ static void load_relative(const launching_system *self, const double *state,
     a = v3_add(a, v3_axpy(v3_scale(2 * s_dot, r->u1_dot), s_dot * s_dot, P2));
     a = v3_add(a, v3_add(v3_cross(Om_dot, Ad), v3_cross(Om, v3_cross(Om, Ad))));
     a = v3_add(a, v3_scale(2, v3_cross(Om, d_dot)));
+    if (rocket->motion.shortened)
+        a.x += shortened_to(&rocket->motion, s->xi).pull;
     v3 Aw = m3_apply(s->A, rocket->w_SB);
     v3 alpha = v3_add(Om_dot, v3_add(v3_cross(w, v3_add(Om, Aw)), v3_cross(Om, Aw)));
     v3_store(k->b, a);
