@@ -560,12 +560,155 @@ static void test_gondola(void **state)
     model_clear(&model);
 }
 
+// ---- a mast that bends in the vertical plane: cubic finite elements, a node at the step
+
+enum { ELEMENTS = 4, MAST_HEAD = 2 * ELEMENTS, MAST_COORDINATES, PIECES = 4 * ELEMENTS };
+
+typedef struct mast {
+    launcher common;
+    double length, bend[ELEMENTS]; // [m], [N m2]
+    double station[PIECES];        // [m] of the mass points
+    double preload, neutral;
+} mast;
+
+// Deflection and slope at x of an element, from those of its ends.
+static cplx deflected(const mast *self, const cplx *q, int element, double x, cplx *slope)
+{
+    double h = self->length / ELEMENTS, s = x / h - element;
+    const cplx *end = q + 2 * element, *start = end - 2;
+    cplx u_0 = element ? start[0] : 0, turn_0 = element ? start[1] : 0;
+    *slope = 6 * s * (1 - s) / h * (end[0] - u_0) + (1 - s) * (1 - 3 * s) * turn_0 +
+             s * (3 * s - 2) * end[1];
+    return u_0 + s * s * (3 - 2 * s) * (end[0] - u_0) +
+           h * s * (1 - s) * ((1 - s) * turn_0 - s * end[1]);
+}
+
+// How far bending draws the axis down between two places of an element, by Boole's rule,
+// exact for the slope's square.
+static cplx drawn_down(const mast *self, const cplx *q, int element, double from, double to)
+{
+    static const double weight[5] = {7, 32, 12, 32, 7};
+    cplx sum = 0, slope;
+    for (int i = 0; i < 5; i++) {
+        deflected(self, q, element, from + 0.25 * i * (to - from), &slope);
+        sum += weight[i] / 90 * (to - from) * slope * slope;
+    }
+    return 0.5 * sum;
+}
+
+// Deflections go backwards.
+static void place_mast(const void *it, cplx t, const cplx *q, cplx (*r)[3], lumped_frame *tube)
+{
+    const mast *self = it;
+    cplx down = 0, slope, head[3] = {0};
+    double h = self->length / ELEMENTS;
+    (void)t;
+    for (int e = 0; e < ELEMENTS; e++) {
+        double before = e * h;
+        for (int i = 4 * e; i < 4 * e + 4; i++) {
+            double x = self->station[i];
+            down += drawn_down(self, q, e, before, x);
+            r[i][0] = -deflected(self, q, e, x, &slope);
+            r[i][1] = x - down;
+            r[i][2] = 0;
+            before = x;
+        }
+        down += drawn_down(self, q, e, before, (e + 1) * h);
+    }
+    head[0] = -deflected(self, q, ELEMENTS - 1, self->length, &slope);
+    head[1] = self->length - down;
+    cplx_matrix A = turn_z(slope + q[MAST_HEAD]);
+    put_body(&self->common, 0, head, &A, r);
+    put_tube(&self->common, head, &A, tube);
+}
+
+// Elements resist the curvature that their ends impose: E I/h^3 K, by forces and moments.
+static void push_mast(const void *it, double t, const mass_motion *now, double (*F)[3], double *Q,
+                      double *z_dot)
+{
+    const mast *self = it;
+    const ld_hinge_lock *lock = &lumped_joint(self->common.model, "head")->lock.spring;
+    double h = self->length / ELEMENTS;
+    (void)t, (void)F, (void)z_dot;
+    for (int e = 0; e < ELEMENTS; e++) {
+        const double *end = now->q + 2 * e, *start = end - 2;
+        double chord = (end[0] - (e ? start[0] : 0)) / h;
+        double left = (e ? start[1] : 0) - chord, right = end[1] - chord;
+        double m_left = self->bend[e] / h * (4 * left + 2 * right);
+        double m_right = self->bend[e] / h * (2 * left + 4 * right);
+        Q[2 * e] += (m_left + m_right) / h;
+        Q[2 * e + 1] -= m_right;
+        if (e) {
+            Q[2 * e - 2] -= (m_left + m_right) / h;
+            Q[2 * e - 1] -= m_left;
+        }
+    }
+    Q[MAST_HEAD] += self->preload - lock->stiffness * (now->q[MAST_HEAD] - self->neutral) -
+                    lock->damping * now->u[MAST_HEAD];
+}
+
+static void build_mast(mast *self, const ld_model *model)
+{
+    // Gauss's rule with four points, exact for the square of a deflection
+    static const double at[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                 0.8611363115940526};
+    static const double weight[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                     0.3478548451374538};
+    const ld_beam *beam = &model->base.mechanism.beam[0];
+    begin(&self->common, model, MAST_COORDINATES, 0);
+    self->common.base.place = place_mast;
+    self->common.base.push = push_mast;
+    self->common.base.self = self;
+    self->length = beam->length;
+    for (int k = 0; k < PIECES; k++) {
+        double h = beam->length / ELEMENTS, x = (k / 4 + 0.5 + 0.5 * at[k % 4]) * h;
+        const ld_section *section = &beam->section[x > beam->section[1].from];
+        double in = section->bore_radius, out = section->outer_radius, pi = acos(-1);
+        self->station[k] = x;
+        self->bend[k / 4] = beam->material.youngs_modulus * pi / 4 * (pow(out, 4) - pow(in, 4));
+        self->common.base.mass[k] =
+            beam->material.density * pi * (out * out - in * in) * 0.5 * h * weight[k % 4];
+    }
+    self->common.base.points = PIECES;
+}
+
+static void test_mast(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {"base.beams.mast.modes.damping=0 %",
+                                       "base.beams.mast.modes.bending=8", TWO_ADAPTORS};
+    static const int bent[MAST_HEAD] = {0, 1, 2, 3, 4, 5, 6, 7};
+    static ld_model model;
+    static mast self;
+    static lumped_launch launch;
+    recorded_run run;
+    lumped_model("mast.yaml", sets, 3, &model);
+    build_mast(&self, &model);
+    self.common.body[0] =
+        lumped_add_body(&self.common.base, self.common.point, lumped_body(&model, "cradle"));
+    double q[MAST_COORDINATES] = {0}, y_dot[2 * MOST_COORDINATES], holding[MOST_COORDINATES];
+    q[MAST_HEAD] = self.neutral = lumped_joint(&model, "head")->angle;
+    lumped_begin(&launch, &model, &self.common.base, -model.run.lead_in, 5e-5, q, NULL, NULL);
+    launch.system.held[MAST_HEAD] = true;
+    lumped_settle(&launch, bent, MAST_HEAD);
+    masses_rates(&launch.system, launch.t, launch.y, y_dot, holding);
+    launch.system.held[MAST_HEAD] = false;
+    self.preload = holding[MAST_HEAD];
+    recorded_run_make(&run, &model);
+    static const lumped_pair pairs[] = {{"body.cradle.x", MAST_HEAD - 2, -1, 0, 1e-6},
+                                        {"joint.head.angle", MAST_HEAD, 1, 0, 5e-7},
+                                        {"rocket.s", -1, 1, 0, 1e-4}};
+    lumped_compare(&launch, &run, pairs, 3, &(lumped_exit){5e-6, 2e-5, 3e-6});
+    recorded_run_free(&run);
+    model_clear(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_suspended), cmocka_unit_test(test_sled),
         cmocka_unit_test(test_turntable), cmocka_unit_test(test_trailer),
-        cmocka_unit_test(test_gondola),
+        cmocka_unit_test(test_gondola),   cmocka_unit_test(test_mast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
