@@ -1,7 +1,7 @@
 // Where everything of a launcher is at an instant, from the columns of its history and its geometry.
 // Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
 import { nodesOf, sectionOf, shapesOf } from "./curve.js";
-import { rowsOf } from "./geometry.js";
+import { hingesOf, rowsOf } from "./geometry.js";
 import { guideOf } from "./guide.js";
 import { followedIn, mechanismOf, placesOf } from "./mechanism.js";
 import { outlineOf } from "./outline.js";
@@ -42,8 +42,8 @@ export class Motion {
     this.outline = outlineOf(rows);
     this.mounts = rows("wheel.mount");
     this.wheelRadius = single("wheel.radius")?.[0] ?? 0;
-    this.azimuthHinge = single("azimuth.hinge");
-    this.elevationHinge = single("elevation.hinge");
+    this.turns = rows("azimuth.hinge").length > 0;
+    [this.azimuthHinge, this.elevationHinge] = hingesOf(rows);
     const mount = single("base.mount");
     this.mount = mount ? multiply(aboutY(mount[0]), aboutZ(mount[1])) : IDENTITY;
     this.looks = single("base.looks")?.[0] ?? 0;
@@ -187,7 +187,7 @@ export class Motion {
     const A = pose(read("chassis.yaw"), read("chassis.pitch"), read("chassis.roll"));
     state.chassis = { r: [read("chassis.x"), read("chassis.y"), read("chassis.z")], A };
     state.azimuth = {
-      r: add(state.chassis.r, apply(A, this.azimuthHinge)), A: multiply(A, aboutY(read("azimuth.angle"))),
+      r: add(state.chassis.r, apply(A, this.azimuthHinge)), A: this.turns ? multiply(A, aboutY(read("azimuth.angle"))) : A,
     };
     state.wheels = this.mounts.map((mount, i) => add(state.chassis.r,
       apply(A, add(mount, [0, read(`wheel.${this.wheelNames[i]}.travel`), 0]))));

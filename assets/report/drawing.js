@@ -1,6 +1,6 @@
 // A labelled drawing of the launcher, to scale: the guide from its side with its supports and the rocket as it stands
 // before ignition, and how the whole stands on its base. What the results do not say is drawn dashed.
-import { rowsOf } from "../replay/geometry.js";
+import { hingesOf, rowsOf } from "../replay/geometry.js";
 import { guideOf } from "../replay/guide.js";
 import { cornersOf, frameOf, mechanismOf, nearestOf, outlineOf as pointsOf, placesOf } from "../replay/mechanism.js";
 import { finCorners, outlineOf } from "../replay/outline.js";
@@ -72,7 +72,7 @@ function launcherOf(geometry, table, rockets) {
     travel: first("rocket.s") ?? 0, pitch: (mechanism ? then : first)("base.pitch") ?? 0, mount: rows("base.mount")[0],
     places: rows("tubes.rear_end"), tube: rockets[0]?.tube ?? 1, closed: table.column.has("pressure.force"),
     wheels: rows("wheel.mount"), wheelRadius: rows("wheel.radius")[0]?.[0] ?? 0,
-    azimuth: rows("azimuth.hinge")[0], elevation: rows("elevation.hinge")[0],
+    azimuth: hingesOf(rows)[0], elevation: hingesOf(rows)[1],
     mechanism, then,
   };
 }

@@ -7,6 +7,7 @@
 #include "launchdyn/response_view.h"
 #include "math/functions.h"
 #include "model/blocks/base.h"
+#include "model/blocks/platform.h"
 #include "model/blocks/road.h"
 #include "model/parts.h"
 #include "quantities/study_results.h"
@@ -180,6 +181,18 @@ static ld_status choose_exit(ld_response_view *view, const ld_response_wish *wis
     return LD_OK;
 }
 
+// Those of a vehicle's hinges that it has, and the others.
+static ld_status choose_on_vehicle(ld_response_view *view, ld_error *error)
+{
+    const char *names[sizeof on_vehicle / sizeof *on_vehicle];
+    bool azimuth = model_platform(view->model)->has_azimuth;
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof on_vehicle / sizeof *on_vehicle; i++)
+        if (azimuth || strncmp(on_vehicle[i], "azimuth.", strlen("azimuth.")) != 0)
+            names[count++] = on_vehicle[i];
+    return choose(view, names, count, error);
+}
+
 static ld_status choose_wished(ld_response_view *view, const ld_response_wish *wish,
                                ld_error *error)
 {
@@ -190,7 +203,7 @@ static ld_status choose_wished(ld_response_view *view, const ld_response_wish *w
     if (wish->what_count > 0)
         return choose(view, wish->what, wish->what_count, error);
     if (model_has_vehicle(view->model))
-        return choose(view, on_vehicle, sizeof on_vehicle / sizeof *on_vehicle, error);
+        return choose_on_vehicle(view, error);
     return choose(view, on_others, sizeof on_others / sizeof *on_others, error);
 }
 

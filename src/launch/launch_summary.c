@@ -183,7 +183,7 @@ void launch_watch_hinges(ld_run *run, double t, const double *y)
         !(since >= 0))
         return;
     const launcher_output *at = simulation_output(self, t, y);
-    for (int i = 0; i < HINGES && at; i++)
+    for (int i = 0; i < model_hinge_count(self->model) && at; i++)
         launch_watch_hinge(&run->watch[i], since, &at->base.report.mechanism.report.hold[i],
                            &run->summary.rocket[self->current].hinge[i]);
 }

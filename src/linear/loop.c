@@ -11,6 +11,7 @@
 #include "model/parts.h"
 
 #include <complex.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,17 +31,15 @@ enum {
     SEEN = 1 + WAYS, // columns: the error, the chassis' angular velocity and its velocity
 };
 
-static const char *const hinges[] = {"azimuth", "elevation"};
-
 struct ld_loop {
     ld_response *response;
     const ld_stabiliser *stabiliser;
-    const char *command; // the input
-    double speed;        // [m/s]
-    double axis[3];      // of the hinge, in the chassis' axes
-    double turn[WAYS];   // angular velocity and velocity of a chassis that turns about the hinge
-    double late;         // [s]
-    double lateness;     // [s] that would be too much, of the loop as if it were at once
+    char command[64];  // the input
+    double speed;      // [m/s]
+    double axis[3];    // of the hinge, in the chassis' axes
+    double turn[WAYS]; // angular velocity and velocity of a chassis that turns about the hinge
+    double late;       // [s]
+    double lateness;   // [s] that would be too much, of the loop as if it were at once
     ld_loop_margins margins;
 };
 
@@ -238,55 +237,59 @@ static ld_status find_margins(ld_loop *self, ld_error *error)
 static ld_status find_hinge(ld_loop *self, const ld_model *model, const char *name, int *hinge,
                             ld_error *error)
 {
-    const ld_turret *turret[] = {&model_platform(model)->azimuth,
-                                 &model_platform(model)->elevation};
+    int count = model_hinge_count(model);
     name_suggestion best = suggestion_begin(name);
-    for (int i = 0; i < 2; i++)
-        suggestion_offer(&best, hinges[i]);
-    for (*hinge = 0; *hinge < 2 && strcmp(hinges[*hinge], name) != 0;)
-        ++*hinge;
-    if (*hinge == 2)
-        return ld_fail(error, LD_ERR_INPUT, "unknown hinge \"%s\"%s%s%s", name,
-                       best.name ? ", did you mean \"" : "; expected azimuth or elevation",
-                       best.name ? best.name : "", best.name ? "\"?" : "");
-    if (!model_has_vehicle(model))
+    if (count == 0)
         return ld_fail(error, LD_ERR_INPUT, "there is no loop: the base is not a vehicle");
-    if (turret[*hinge]->lock.present)
+    for (int i = 0; i < count; i++)
+        suggestion_offer(&best, model_hinge_name(model, i));
+    for (*hinge = 0; *hinge < count && strcmp(model_hinge_name(model, *hinge), name) != 0;)
+        ++*hinge;
+    if (*hinge == count)
+        return ld_fail(error, LD_ERR_INPUT, "unknown hinge \"%s\"%s%s%s", name,
+                       best.name    ? ", did you mean \""
+                       : count == 2 ? "; expected azimuth or elevation"
+                                    : "; expected elevation",
+                       best.name ? best.name : "", best.name ? "\"?" : "");
+    const ld_turret *turret = model_hinge(model, *hinge);
+    if (turret->lock.present)
         return ld_fail(error, LD_ERR_INPUT,
                        "platform.%s.lock: there is no loop: the hinge is locked", name);
-    self->stabiliser = &turret[*hinge]->stabiliser;
+    self->stabiliser = &turret->stabiliser;
     return LD_OK;
 }
 
 // Its axis, and what turns about it.
-static void place_hinge(ld_loop *self, const ld_platform *platform, int hinge)
+static void place_hinge(ld_loop *self, const ld_platform *platform, bool azimuth)
 {
     const ld_response *at = self->response;
     m3 A_IC = m3_mul(m3_rotation_y(response_rest(at, "chassis.yaw")),
                      m3_mul(m3_rotation_z(response_rest(at, "chassis.pitch")),
                             m3_rotation_x(response_rest(at, "chassis.roll"))));
-    m3 A_CA = m3_rotation_y(response_rest(at, "azimuth.angle"));
-    v3 axis = hinge ? m3_column(A_CA, 2) : v3_make(0, 1, 0);
-    v3 place = v3_from(platform->azimuth.hinge_at);
-    if (hinge)
+    m3 A_CA = m3_identity();
+    v3 place = v3_zero();
+    if (platform->has_azimuth) {
+        A_CA = m3_rotation_y(response_rest(at, "azimuth.angle"));
+        place = v3_from(platform->azimuth.hinge_at);
+    }
+    v3 axis = azimuth ? v3_make(0, 1, 0) : m3_column(A_CA, 2);
+    if (!azimuth)
         place = v3_add(place, m3_apply(A_CA, v3_from(platform->elevation.hinge_at)));
     v3_store(self->axis, axis);
     v3_store(self->turn, axis);
     v3_store(self->turn + 3, m3_apply(A_IC, v3_cross(place, axis)));
 }
 
-static ld_status choose_columns(ld_loop *self, const ld_platform *platform, int hinge,
-                                ld_error *error)
+static ld_status choose_columns(ld_loop *self, const ld_model *model, int hinge, ld_error *error)
 {
-    static const char *const names[][SEEN] = {
-        {"azimuth.error", "chassis.wx", "chassis.wy", "chassis.wz", "chassis.vx", "chassis.vy",
-         "chassis.vz"},
-        {"elevation.error", "chassis.wx", "chassis.wy", "chassis.wz", "chassis.vx", "chassis.vy",
-         "chassis.vz"}};
-    static const char *const commands[] = {"azimuth.command", "elevation.command"};
-    self->command = commands[hinge];
-    place_hinge(self, platform, hinge);
-    return ld_response_choose(self->response, names[hinge], SEEN, error);
+    const ld_platform *platform = model_platform(model);
+    char column[sizeof self->command];
+    const char *const names[SEEN] = {column,       "chassis.wx", "chassis.wy", "chassis.wz",
+                                     "chassis.vx", "chassis.vy", "chassis.vz"};
+    snprintf(column, sizeof column, "%s.error", model_hinge_name(model, hinge));
+    snprintf(self->command, sizeof self->command, "%s.command", model_hinge_name(model, hinge));
+    place_hinge(self, platform, model_hinge(model, hinge) == &platform->azimuth);
+    return ld_response_choose(self->response, names, SEEN, error);
 }
 
 static ld_status check_lateness(const ld_loop *self, const char *hinge, ld_error *error)
@@ -301,7 +304,7 @@ static ld_status check_lateness(const ld_loop *self, const char *hinge, ld_error
 
 static ld_status build(ld_loop *self, const ld_model *model, const char *name, ld_error *error)
 {
-    int hinge;
+    int hinge = 0;
     ld_status status = find_hinge(self, model, name, &hinge, error);
     if (status)
         return status;
@@ -310,7 +313,7 @@ static ld_status build(ld_loop *self, const ld_model *model, const char *name, l
     self->late = given->sample > 0 ? given->delay + 0.5 * given->sample : 0;
     status = response_create(model, NAN, NAN, false, &self->response, error);
     if (!status)
-        status = choose_columns(self, model_platform(model), hinge, error);
+        status = choose_columns(self, model, hinge, error);
     if (!status)
         status = find_margins(self, error);
     return status ? status : check_lateness(self, name, error);

@@ -616,8 +616,7 @@ static double mean_slope(double ratio)
 
 static const ld_hinge_friction *friction_of(const ld_response *self, int hinge)
 {
-    const ld_platform *platform = &self->model->platform;
-    return hinge == HINGE_AZIMUTH ? &platform->azimuth.friction : &platform->elevation.friction;
+    return &model_hinge(self->model, hinge)->friction;
 }
 
 // How fast the hinges move on the road, root mean square.
@@ -626,14 +625,16 @@ static ld_status find_rates(ld_response *self, double speed, double rate[HINGES]
     double square[HINGES];
     answers room;
     ld_status status = make_room(self, &room, error);
-    rate[HINGE_AZIMUTH] = rate[HINGE_ELEVATION] = 0;
+    int hinges = model_hinge_count(self->model);
+    for (int i = 0; i < hinges; i++)
+        rate[i] = 0;
     for (size_t k = 0; k < self->line_count && !status; k++) {
         status = square_on_road(self, self->line[k].n * speed, self->line[k].shared, &room, square,
                                 error);
-        for (int i = 0; i < HINGES && !status; i++)
+        for (int i = 0; i < hinges && !status; i++)
             rate[i] += self->line[k].square * square[i];
     }
-    for (int i = 0; i < HINGES; i++)
+    for (int i = 0; i < hinges; i++)
         rate[i] = sqrt(rate[i]);
     free(room.z);
     return status;
@@ -645,8 +646,9 @@ static ld_status iterate_friction(ld_response *self, double speed, ld_error *err
 {
     enum { MOST = 40 };
     double off = 1;
+    int hinges = model_hinge_count(self->model);
     ld_status status = LD_OK;
-    for (int i = 0; i < HINGES; i++)
+    for (int i = 0; i < hinges; i++)
         self->friction[i] = 0;
     for (int k = 0; k < MOST && off > 1e-4 && !status; k++) {
         double rate[HINGES];
@@ -654,7 +656,7 @@ static ld_status iterate_friction(ld_response *self, double speed, ld_error *err
         if (!status)
             status = find_rates(self, speed, rate, error);
         off = 0;
-        for (int i = 0; i < HINGES && !status; i++) {
+        for (int i = 0; i < hinges && !status; i++) {
             const ld_hinge_friction *given = friction_of(self, i);
             double slope = given->coulomb / given->rate;
             double next = slope * mean_slope(rate[i] / given->rate);
@@ -672,7 +674,8 @@ static ld_status find_friction(ld_response *self, double speed, ld_error *error)
     double *C = self->C;
     self->chosen = NULL;
     self->C = NULL;
-    ld_status status = ld_response_choose(self, rates, HINGES, error);
+    size_t hinges = (size_t)model_hinge_count(self->model);
+    ld_status status = ld_response_choose(self, rates + HINGES - hinges, hinges, error);
     if (!status)
         status = iterate_friction(self, speed, error);
     free(self->chosen);
@@ -694,8 +697,8 @@ static ld_status make_viscous(ld_response *self, int hinge, ld_error *error)
     double most = given->coulomb / given->rate;
     *model = self->at[0];
     ld_platform *platform = &model->platform;
-    *(hinge == HINGE_AZIMUTH ? &platform->azimuth.friction.viscous
-                             : &platform->elevation.friction.viscous) += most;
+    bool azimuth = model_hinge(model, hinge) == &platform->azimuth;
+    (azimuth ? &platform->azimuth : &platform->elevation)->friction.viscous += most;
     plant *to = &self->viscous[hinge];
     ld_status status = simulation_renew(&simulation, model, error);
     if (!status)
@@ -722,7 +725,7 @@ bool response_continues(const ld_response *self)
 ld_status ld_response_friction(ld_response *self, bool friction, ld_error *error)
 {
     ld_status status = LD_OK;
-    for (int i = 0; i < HINGES && friction && model_has_vehicle(self->model) && !status; i++)
+    for (int i = 0; i < model_hinge_count(self->model) && friction && !status; i++)
         if (friction_of(self, i)->coulomb > 0 && !self->viscous[i].A)
             status = make_viscous(self, i, error);
     self->hinges_have_friction = friction && !status;

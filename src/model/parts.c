@@ -102,6 +102,26 @@ bool model_has_vehicle(const ld_model *model)
     return model->base.kind == LD_BASE_VEHICLE;
 }
 
+int model_hinge_count(const ld_model *model)
+{
+    return !model_has_vehicle(model) ? 0 : model->platform.has_azimuth ? 2 : 1;
+}
+
+static bool is_azimuth(const ld_model *model, int i)
+{
+    return i == 0 && model->platform.has_azimuth;
+}
+
+const ld_turret *model_hinge(const ld_model *model, int i)
+{
+    return is_azimuth(model, i) ? &model->platform.azimuth : &model->platform.elevation;
+}
+
+const char *model_hinge_name(const ld_model *model, int i)
+{
+    return is_azimuth(model, i) ? "azimuth" : "elevation";
+}
+
 bool model_has_multibody(const ld_model *model)
 {
     return model->base.kind == LD_BASE_MULTIBODY;

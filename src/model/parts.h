@@ -33,6 +33,10 @@ bool model_base_is_external(const ld_model *model);
 void model_make_base_external(ld_model *model);
 // Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
 bool model_has_vehicle(const ld_model *model);
+// The vehicle's hinges from the chassis on: azimuth, where it has one, and elevation.
+int model_hinge_count(const ld_model *model);
+const struct ld_turret *model_hinge(const ld_model *model, int i);
+const char *model_hinge_name(const ld_model *model, int i);
 // Whether the base is one of bodies, joints and force elements.
 bool model_has_multibody(const ld_model *model);
 // Whether the rocket's shoes slide on surfaces, not in a bore.

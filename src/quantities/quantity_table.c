@@ -15,6 +15,7 @@
 quantity_things quantity_things_of(const ld_model *model)
 {
     static const char hinges[2][16] = {"azimuth", "elevation"};
+    int hinge_count = model ? model_hinge_count(model) : 0;
     if (!model)
         return (quantity_things){0};
     bool on_vehicle = model_has_vehicle(model);
@@ -36,7 +37,7 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_SLIDE] = model_slide_count(model),
                   [EACH_ADAPTOR] = rocket->adaptor_count,
                   [EACH_SHOE] = model_has_surfaces(model) ? rocket->adaptor_count : 0,
-                  [EACH_HINGE] = on_vehicle ? 2 : 0,
+                  [EACH_HINGE] = hinge_count,
                   [EACH_WHEEL] = on_vehicle ? vehicle->wheel_count : 0,
                   [EACH_MULTIBODY] = multibody,
                   [EACH_ROLLING] = multibody && vehicle->wheel_count > 0,
@@ -58,7 +59,7 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_SUPPORT] = tubes->station_count ? tubes->support_count : 0},
         .name = {[EACH_ADAPTOR] = rocket->adaptor[0].name,
                  [EACH_SHOE] = rocket->adaptor[0].name,
-                 [EACH_HINGE] = hinges[0],
+                 [EACH_HINGE] = hinges[hinge_count == 1],
                  [EACH_WHEEL] = vehicle->wheel[0].name,
                  [EACH_BODY] = parts->body[0].name,
                  [EACH_BEAM] = parts->beam[0].name,

@@ -1032,7 +1032,7 @@ static ld_status settle_base(const launch_state *self, double t, const launching
     free(dead.jacobian);
     if (reached <= accepted_residual(self))
         return LD_OK;
-    return dynamics->report_no_rest(reached, error);
+    return dynamics->report_no_rest(base, reached, error);
 }
 
 // Whether the run can begin in the equilibrium found, which its base keeps.

@@ -207,11 +207,12 @@ static void add_base(geometry *all, const base_system *base)
                          "what the base is drawn as: 1 ship, 2 aircraft; a plain one has none");
         return;
     }
-    geometry_add_row(all, "azimuth.hinge", "m", 3, model_platform(model)->azimuth.hinge_at,
+    geometry_add_row(all, "azimuth.hinge", "m", model_platform(model)->has_azimuth ? 3 : 0,
+                     model_platform(model)->azimuth.hinge_at,
                      "hinge of the azimuth platform, axes of the chassis, from its mass centre");
-    geometry_add_row(
-        all, "elevation.hinge", "m", 3, model_platform(model)->elevation.hinge_at,
-        "hinge of the elevation platform, axes of the azimuth platform, from its hinge");
+    geometry_add_row(all, "elevation.hinge", "m", 3, model_platform(model)->elevation.hinge_at,
+                     "hinge of the elevation platform, axes of the azimuth platform, from its "
+                     "hinge; without one axes of the chassis, from its mass centre");
     double *mount = geometry_add(all, "wheel.mount", "m", (size_t)vehicle->wheel_count, 3,
                                  "wheel centres with unloaded suspension, axes of the chassis");
     for (int i = 0; i < 3 * vehicle->wheel_count; i++)

@@ -846,6 +846,7 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
     linear_system system = {0};
     fed_pole fed = {0};
     pole_list found = {.pole = malloc(MOST * sizeof *found.pole), .capacity = MOST, .fed = &fed};
+    const base_dynamics *dynamics = simulation->launcher.base.kind->dynamics;
     *growing = (ld_pole){0};
     if (!found.pole)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the eigenvalues");
@@ -868,6 +869,8 @@ ld_status simulation_check_stability(const ld_simulation *simulation, ld_pole *g
                     "%s: unstable: about its equilibrium a motion of %.3g Hz grows by %.3g 1/s "
                     "(launchdyn modes lists all)",
                     fed.feeder, fed.pole.imaginary / TWO_PI, fed.pole.real);
+    else if (growing->real > 0 && growing->imaginary == 0 && dynamics->check_growing)
+        status = dynamics->check_growing(&state.launcher.base, growing->real, error);
     launch_state_end(&state); // the feeder's name is the base's
     free(found.pole);
     free(system.J);

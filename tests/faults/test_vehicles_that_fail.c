@@ -31,6 +31,26 @@ DOES_NOT_START(
     "check that all wheels reach the road and the mass centre is between them",
     for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[0] += 4)
 
+DOES_NOT_START(
+    one_axle_below_the_mass_centre, LD_ERR_INPUT,
+    "base.wheels: nothing holds the chassis in pitch: the wheels are on one line, seen from above, "
+    "and about its equilibrium it tips over, growing by # 1/s: give wheels beside it",
+    vehicle->speed = 0, vehicle->wheel_count = 2,
+    vehicle->wheel[0].mount[0] = vehicle->wheel[1].mount[0] = -0.3)
+
+DOES_NOT_START(
+    one_track_below_the_mass_centre, LD_ERR_INPUT,
+    "base.wheels: nothing holds the chassis in roll: the wheels are on one line, seen from above, "
+    "and about its equilibrium it tips over, growing by # 1/s: give wheels beside it",
+    vehicle->speed = 0;
+    for (int i = 0; i < 6; i++) vehicle->wheel[i].mount[2] = 0)
+
+DOES_NOT_START(
+    one_axle_behind_the_mass_centre, LD_ERR_INPUT,
+    "base.wheels: nothing holds the chassis in pitch: the wheels are on one line, seen from above, "
+    "and no equilibrium was found (smallest residual # m/s2): give wheels beside it",
+    vehicle->wheel_count = 2)
+
 DOES_NOT_START(weightless, LD_ERR_INPUT,
                "base.wheels.1: wheel \"front-left\" does not reach the ground at the start: "
                "in equilibrium it hangs # m above the road",
@@ -105,6 +125,9 @@ int main(void)
         cmocka_unit_test(wheel_in_the_air),
         cmocka_unit_test(weak_stabiliser),
         cmocka_unit_test(mass_centre_before_the_wheels),
+        cmocka_unit_test(one_axle_below_the_mass_centre),
+        cmocka_unit_test(one_track_below_the_mass_centre),
+        cmocka_unit_test(one_axle_behind_the_mass_centre),
         cmocka_unit_test(weightless),
         cmocka_unit_test(drives_against_a_wall),
         cmocka_unit_test(damper_like_rock),

@@ -84,8 +84,6 @@ static void test_vehicle(void **state)
     (void)state;
     REFUSED_OF(VEHICLE, m.base.vehicle.speed = -1,
                "base.speed: -1 m/s is not allowed; expected from 0 to 1000 m/s");
-    REFUSED_OF(VEHICLE, m.base.vehicle.wheel_count = 2,
-               "base.wheels: found 2, expected at least 3 under a vehicle");
     REFUSED_OF(VEHICLE, m.base.vehicle.wheel[1].mount[2] = NAN,
                "base.wheels.2.mount: nan m is not allowed; expected from -1000 to 1000 m");
     REFUSED_OF(VEHICLE, m.base.vehicle.road.iso_class = -2,

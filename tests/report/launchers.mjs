@@ -93,7 +93,21 @@ async function checkTrailer(browser) {
   await close(page, "trailer");
 }
 
+// A vehicle without an azimuth platform: its hinge on the chassis, the tube on it.
+async function checkSingleHinge(browser) {
+  const { file, column } = runOf("firm.yaml", "--set", "platform.azimuth=none", "--set", "run.end=tip");
+  const page = await open(browser, file);
+  const hinge = await page.evaluate(() => {
+    const { motion } = window.launchdyn.current.stage;
+    return { sum: motion.azimuthHinge.map((x, i) => x + motion.elevationHinge[i]), turns: motion.turns };
+  });
+  check("both hinges make the elevation's", apart(hinge.sum, [-0.6, 0.7, 0]) < 1e-9, hinge.sum);
+  check("the platform does not turn", !hinge.turns && !column.has("azimuth.angle"));
+  await close(page, "single-hinge");
+}
+
 await inBrowser(async (browser) => {
+  await checkSingleHinge(browser);
   await checkErector(browser);
   await checkMast(browser);
   await checkTrailer(browser);

@@ -149,6 +149,7 @@ static void fill_platform(ld_platform *platform)
 {
     platform->chassis_mass = 11000;
     set3(platform->chassis_inertia, 9e3, 4.5e4, 4.2e4);
+    platform->has_azimuth = true;
     platform->azimuth = (ld_turret){
         .hinge_at = {-1.2, 0.6, 0},
         .mass = 700,

@@ -32,12 +32,14 @@ typedef struct ld_turret {
     ld_hinge_lock lock;
 } ld_turret;
 
-/// Chassis, azimuth and elevation platform: model.md, section 6.
+/// Chassis, azimuth and elevation platform: model.md, section 6. Without the azimuth platform the
+/// elevation platform is hinged to the chassis.
 typedef struct ld_platform {
     double chassis_mass;       ///< [kg]
     double chassis_inertia[3]; ///< [kg m2]
     ld_table jet;              ///< distance from a tube's exit [m], force of a jet [N]; empty: none
     double jet_scale;          ///< [-] factor on the force
+    bool has_azimuth;
     ld_turret azimuth;
     ld_turret elevation;
 } ld_platform;

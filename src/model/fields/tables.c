@@ -591,12 +591,12 @@ static const field_row hinge_lock_fields[] = {
      .doc = "about the hinge"},
     {0}};
 static const field_block hinge_lock_block = {.fields = hinge_lock_fields};
-static const field_word hinge_lock_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word optional_block_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 
 static const field_row turret_fields[] = {
     {"hinge_at", VECTOR(ld_turret, hinge_at, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
-     .doc = "hinge in axes of the body below: from the chassis' mass centre (azimuth), from the "
-            "azimuth hinge (elevation)"},
+     .doc = "hinge in axes of the body below: from the chassis' mass centre, of elevation from the "
+            "azimuth hinge if there is one"},
     {"mass", NUMBER(ld_turret, mass, "kg"), POSITIVE, REQUIRED,
      .doc = "of the frame, without tubes, tails and rockets"},
     {"center", VECTOR(ld_turret, center, "m", 3), FROM_TO(-1000, 1000), REQUIRED,
@@ -608,7 +608,7 @@ static const field_row turret_fields[] = {
     {"friction", BLOCK(ld_turret, friction, friction_block), .initial_doc = "none",
      .doc = "in the hinge"},
     {"lock", BLOCK(ld_turret, lock, hinge_lock_block), .initial_doc = "none",
-     SWITCH(ld_turret, lock.present, hinge_lock_words), .other_is_bool = true,
+     SWITCH(ld_turret, lock.present, optional_block_words), .other_is_bool = true,
      .doc = "spring-damper in place of the stabiliser"},
     {0}};
 static const field_block turret_block = {.fields = turret_fields};
@@ -620,10 +620,12 @@ static const field_row jet_columns[] = {
 static const table_format jet_table = {TABLE_CSV, 2, jet_columns, NULL};
 static const field_row platform_fields[] = {
     {"chassis", SAME_STRUCT(chassis_block), .required = true, .doc = "free rigid body"},
-    {"azimuth", BLOCK(ld_platform, azimuth, turret_block), .required = true,
+    {"azimuth", BLOCK(ld_platform, azimuth, turret_block), .initial_doc = "none",
+     SWITCH(ld_platform, has_azimuth, optional_block_words), .other_is_bool = true,
      .doc = "platform about the chassis' y axis"},
     {"elevation", BLOCK(ld_platform, elevation, turret_block), .required = true,
-     .doc = "platform about the azimuth platform's z axis, with the tubes"},
+     .doc = "platform about the z axis of the azimuth platform, or of the chassis without one; "
+            "carries the tubes"},
     {"jet", TABLE(ld_platform, jet, jet_table), .initial_doc = "none",
      .doc = "force of a departed rocket's jet, backwards on the elevation platform at the tip, at "
             "greatest thrust; over the distance from tip to rear adaptor, linear"},

@@ -85,23 +85,6 @@ static void road_rules(const rule_set *rules)
 
 // ---- wheels
 
-// Whether the wheels, seen from above, stand on one line.
-static bool on_one_line(const ld_vehicle *vehicle)
-{
-    double n = vehicle->wheel_count, x = 0, z = 0, xx = 0, xz = 0, zz = 0;
-    for (int i = 0; i < vehicle->wheel_count; i++) {
-        x += vehicle->wheel[i].mount[0] / n;
-        z += vehicle->wheel[i].mount[2] / n;
-    }
-    for (int i = 0; i < vehicle->wheel_count; i++) {
-        double dx = vehicle->wheel[i].mount[0] - x, dz = vehicle->wheel[i].mount[2] - z;
-        xx += dx * dx;
-        xz += dx * dz;
-        zz += dz * dz;
-    }
-    return xx * zz - xz * xz <= 1e-12 * xx * zz;
-}
-
 static void wheel_rules(const rule_set *rules)
 {
     const ld_vehicle *vehicle = &rules->model->base.vehicle;
@@ -115,13 +98,6 @@ static void wheel_rules(const rule_set *rules)
                               "\"%s\" is already the name of wheel %d", vehicle->wheel[i].name,
                               k + 1);
     }
-    bool alone = model_has_vehicle(rules->model); // nothing else holds the chassis upright
-    if (alone && vehicle->wheel_count > 0 && vehicle->wheel_count < 3)
-        report_broken(rules, "base.wheels", 0, "found %d, expected at least 3 under a vehicle",
-                      vehicle->wheel_count);
-    if (alone && vehicle->wheel_count >= 3 && on_one_line(vehicle))
-        report_broken(rules, "base.wheels", 0,
-                      "they are on one line, seen from above: the vehicle would tip over");
     if (vehicle->speed > 0 && driven == 0)
         report_broken(rules, "base.drive.wheels", 0,
                       "no wheel is driven; a speed of %g m/s requires one", vehicle->speed);
@@ -246,6 +222,7 @@ void vehicle_rules(const rule_set *rules)
     if (wheels)
         return;
     inertia_rule(rules, "platform.chassis.inertia", platform->chassis_inertia, NULL);
-    turret_rules(rules, "azimuth", &platform->azimuth, false);
+    if (platform->has_azimuth)
+        turret_rules(rules, "azimuth", &platform->azimuth, false);
     turret_rules(rules, "elevation", &platform->elevation, true);
 }

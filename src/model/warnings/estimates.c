@@ -247,14 +247,16 @@ static double wheels_span(const plausible_entry *at, int axis)
     return most - wheels_begin(at, axis);
 }
 
+// NaN where all wheels are on one axle.
 static double wheelbase(const plausible_entry *at)
 {
-    return wheels_span(at, 0);
+    return if_positive(wheels_span(at, 0));
 }
 
+// NaN where all wheels are in one track.
 static double track(const plausible_entry *at)
 {
-    return wheels_span(at, 2);
+    return if_positive(wheels_span(at, 2));
 }
 
 // From the chassis' mass centre.
@@ -280,7 +282,9 @@ static double carried_mass(const plausible_entry *at)
     const ld_platform *platform = &at->model->platform;
     const ld_tubes *tubes = &at->model->tubes;
     double count = tubes_of_layout(at);
-    return platform->azimuth.mass + platform->elevation.mass + count * estimate_tube_mass(at) +
+    double platforms =
+        platform->elevation.mass + (platform->has_azimuth ? platform->azimuth.mass : 0);
+    return platforms + count * estimate_tube_mass(at) +
            (count - tubes->empty_count) * at->model->rocket.full.mass;
 }
 

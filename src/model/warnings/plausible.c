@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "model/blocks/platform.h"
 #include "model/fields/field.h"
+#include "model/parts.h"
 #include "model/warnings/plausible_find.h"
 
 enum { TABLES = 7, MOST_RULES = 256, HINGES = 2 };
@@ -34,12 +36,15 @@ static bool is_of_hinge(const plausible_rule *rule)
     return strncmp(rule->path, "platform.#", strlen("platform.#")) == 0;
 }
 
-// Whether the rule says something about entry `i`; then the warning, whose path it fills.
+// Whether the rule says something about entry `i`; then the warning, whose path it fills. There may
+// be no azimuth hinge.
 static bool is_implausible(const plausible_rule *rule, const ld_model *model, int i,
                            char path[LD_MAX_PATH], plausible_note *note)
 {
     static const char *const hinges[HINGES] = {"azimuth", "elevation"};
     char number[16];
+    if (is_of_hinge(rule) && i == 0 && !model_platform(model)->has_azimuth)
+        return false;
     snprintf(number, sizeof number, "%d", i + 1);
     plausible_pair pair = plausible_find(rule, model, i, is_of_hinge(rule) ? hinges[i] : number);
     if (pair.row)

@@ -174,7 +174,10 @@ typedef struct base_dynamics {
     ld_status (*check_rest)(const base_system *self, const base_found *found, const double *state,
                             ld_error *error);
     // Says that there is none, with the smallest residual found [m/s2].
-    ld_status (*report_no_rest)(double smallest, ld_error *error);
+    ld_status (*report_no_rest)(const base_system *self, double smallest, ld_error *error);
+    // Fails where a motion that grows from it by `rate` [1/s] is one that nothing holds. NULL: all
+    // are held.
+    ld_status (*check_growing)(const base_system *self, double rate, ld_error *error);
     // Fails where nothing holds a part of it; what is to be said of the equilibrium, empty:
     // nothing. NULL: nothing is.
     ld_status (*check_held)(const base_system *self, ld_error *error);

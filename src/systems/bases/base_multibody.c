@@ -94,8 +94,9 @@ static void guess(const base_system *self, double tube, double rocket, double *s
     memcpy(state, own->rest, (size_t)self->state_count * sizeof *state);
 }
 
-static ld_status report_no_rest(double smallest, ld_error *error)
+static ld_status report_no_rest(const base_system *self, double smallest, ld_error *error)
 {
+    (void)self;
     return ld_fail(
         error, LD_ERR_NUMERIC,
         "base: its bodies find no static equilibrium (smallest residual %.3g m/s2): does "

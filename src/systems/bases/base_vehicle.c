@@ -100,13 +100,55 @@ static void guess(const base_system *self, double tube, double rocket, double *s
     }
 }
 
-static ld_status report_no_rest(double smallest, ld_error *error)
+// How a chassis could turn whose wheels, seen from above, are on one line or all at one place;
+// NULL: they hold it.
+static const char *unheld(const ld_vehicle *vehicle)
 {
+    double n = vehicle->wheel_count, x = 0, z = 0, xx = 0, xz = 0, zz = 0;
+    for (int i = 0; i < vehicle->wheel_count; i++) {
+        x += vehicle->wheel[i].mount[0] / n;
+        z += vehicle->wheel[i].mount[2] / n;
+    }
+    for (int i = 0; i < vehicle->wheel_count; i++) {
+        double dx = vehicle->wheel[i].mount[0] - x, dz = vehicle->wheel[i].mount[2] - z;
+        xx += dx * dx;
+        xz += dx * dz;
+        zz += dz * dz;
+    }
+    if (xx * zz - xz * xz > 1e-12 * xx * zz)
+        return NULL;
+    const double least = 1e-12; // [m2]
+    return xx > least && zz <= least   ? "roll"
+           : zz > least && xx <= least ? "pitch"
+                                       : "pitch and roll";
+}
+
+static ld_status report_no_rest(const base_system *self, double smallest, ld_error *error)
+{
+    const char *turns = unheld(&self->model->base.vehicle);
+    if (turns)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "base.wheels: nothing holds the chassis in %s: the wheels are on one line, "
+                       "seen from above, and no equilibrium was found (smallest residual %.3g "
+                       "m/s2): give wheels beside it",
+                       turns, smallest);
     return ld_fail(
         error, LD_ERR_NUMERIC,
         "base.wheels: the vehicle has no static equilibrium on its wheels (smallest residual %.3g "
         "m/s2): check that all wheels reach the road and the mass centre is between them",
         smallest);
+}
+
+static ld_status check_growing(const base_system *self, double rate, ld_error *error)
+{
+    const char *turns = unheld(&self->model->base.vehicle);
+    if (!turns)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT,
+                   "base.wheels: nothing holds the chassis in %s: the wheels are on one line, seen "
+                   "from above, and about its equilibrium it tips over, growing by %.3g 1/s: give "
+                   "wheels beside it",
+                   turns, rate);
 }
 
 static ld_status check_rest(const base_system *self, const base_found *found, const double *state,
@@ -178,7 +220,7 @@ static double inertia_of(const base_system *self, int displacement, int *group)
         *group = of_chassis[displacement];
         return displacement < 3 ? mechanism->mass : platform->chassis_inertia[displacement - 3];
     }
-    bool azimuth = displacement == 6;
+    bool azimuth = displacement == 6 && platform->has_azimuth;
     *group = azimuth ? AZIMUTH : ELEVATION;
     return azimuth ? platform->azimuth.inertia[1] + platform->elevation.inertia[1]
                    : platform->elevation.inertia[2];
@@ -196,6 +238,7 @@ static const base_dynamics dynamics = {
     .residual = mechanism_base_residual,
     .check_rest = check_rest,
     .report_no_rest = report_no_rest,
+    .check_growing = check_growing,
     .displace_slightly = mechanism_base_displace_slightly,
     .speed_of = mechanism_base_speed_of,
     .extra_of = mechanism_base_extra_of,

@@ -8,10 +8,10 @@
 #include "systems/mechanism/marching.h"
 #include "systems/mechanism/mechanism.h"
 
-// The holds of its mechanism.
+// The holds of its mechanism, where it has an azimuth platform; else elevation is the only one.
 enum { HINGE_AZIMUTH, HINGE_ELEVATION, HINGES };
 
-// Its state up to the wheels, by the mechanism's layout.
+// Its state up to the wheels, by the mechanism's layout, with both hinges.
 enum {
     VEHICLE_R = 0,          // mass centre of the chassis in I
     VEHICLE_QUATERNION = 3, // its attitude

@@ -68,9 +68,12 @@ void vehicle_describe(const ld_model *model, ld_mechanism *self)
     const ld_platform *given = &model->platform;
     add_body(self, chassis, given->chassis_mass, given->chassis_inertia);
     add_joint(self, chassis, "ground", chassis)->kind = LD_JOINT_FREE;
-    add_platform(self, &given->azimuth, "azimuth", chassis, azimuth_platform, y);
-    add_platform(self, &given->elevation, "elevation", azimuth_platform, elevation_platform, z);
-    add_drive(self, "azimuth", &given->azimuth.stabiliser, LD_FOLLOWS_YAW);
+    if (given->has_azimuth) {
+        add_platform(self, &given->azimuth, "azimuth", chassis, azimuth_platform, y);
+        add_drive(self, "azimuth", &given->azimuth.stabiliser, LD_FOLLOWS_YAW);
+    }
+    add_platform(self, &given->elevation, "elevation",
+                 given->has_azimuth ? azimuth_platform : chassis, elevation_platform, z);
     add_drive(self, "elevation", &given->elevation.stabiliser, LD_FOLLOWS_PITCH);
     set_name(self->wheels_on, chassis);
 }

@@ -1,6 +1,6 @@
 // A vehicle's chassis, platforms and stabilisers as a mechanism (model.md, section 6): the chassis
-// free on the ground, the azimuth platform on it, the elevation platform, which carries the tubes,
-// on that.
+// free on the ground, the azimuth platform on it, where there is one, the elevation platform, which
+// carries the tubes, on that.
 #ifndef LD_SYSTEMS_VEHICLE_MECHANISM_H
 #define LD_SYSTEMS_VEHICLE_MECHANISM_H
 
