@@ -89,7 +89,9 @@ typedef struct ld_study_view {
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
                           ///< others are from it is shown instead (docs/study.md); NULL: none
     const char *csv;      ///< of `against`: besides, a CSV file with the same; NULL: not requested
-    const void *reserved[1]; ///< NULL: room for what later versions may be asked
+    const char *over;     ///< one or two swept keys, "base.speed,firing.interval": a row for each
+                          ///< of their values is shown instead, pooled over the other keys; NULL:
+                          ///< of `against` the keys that it names, else every point
 } ld_study_view;
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point
@@ -98,6 +100,25 @@ typedef struct ld_study_view {
 /// point,
 ///         nowhere two pairs), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
+                        ld_error *error);
+
+/// What is drawn of a sweep; NULL or zeros: the usual.
+typedef struct ld_study_question {
+    const char *what;      ///< names of results, with commas between; NULL: a choice
+    const char *over;      ///< one or two swept keys, "base.speed,firing.interval"; NULL: the first
+    const char *against;   ///< a point, as in ld_study_view: differences from it; NULL: none
+    const char *statistic; ///< "mean" (NULL), "deviation", "quantile:P", "share:>LIMIT",
+                           ///< "share:<LIMIT", "footprint[:SHARE]" (docs/study.md)
+    bool map;              ///< two keys as a map, however few values the second one has
+    const void *reserved[3]; ///< NULL: room for what later versions may be asked
+} ld_study_question;
+
+/// Draws results over the values of one swept key, or of two, pooled over the others, with 95 %
+/// intervals, by gnuplot.
+/// @param file ends in .svg, .pdf or .png
+/// @return LD_OK; LD_ERR_INPUT (no study there, no sweep, no such key, result or point, no value to
+///         draw), LD_ERR_FILE, LD_ERR_MISSING (no gnuplot), LD_ERR_MEMORY
+ld_status ld_study_plot(const char *folder, const ld_study_question *question, const char *file,
                         ld_error *error);
 
 /// Writes all rockets with their factors and results, in full precision: a line for each into the

@@ -34,13 +34,15 @@ static const command commands[] = {
      .run = command_run,
      .in_child = true},
     {.name = "study",
-     .arguments = "FILE | show DIR | export DIR | merge DIR",
+     .arguments = "FILE | show DIR | plot DIR | export DIR | merge DIR",
      .words = COMMAND_ANY,
      .summary = "Run a Monte Carlo study or a sweep, or show its results",
      .about =
          "launchdyn study FILE --out DIR runs the samples that DIR lacks; after an interruption "
          "the same command continues. launchdyn study show DIR prints statistics, also during the "
-         "run. launchdyn study export DIR writes the results of all rockets (--csv FILE, --hdf5 "
+         "run. launchdyn study plot DIR draws results over swept keys (-o FILE.svg, FILE.pdf or "
+         "FILE.png). launchdyn study export DIR writes the results of all rockets (--csv FILE, "
+         "--hdf5 "
          "FILE) or, for range safety, the footprints of the landing points (--footprint "
          "FILE.kml).\n\nTo share a study among machines, run it on each with --shard I/N, I from 1 "
          "to N, and the same DIR. launchdyn study merge DIR then merges the results.",
@@ -48,6 +50,8 @@ static const command commands[] = {
          "launchdyn study scenario.yaml --out out -j 4|Run or continue, four samples at a time\n"
          "launchdyn study show out --what exit_speed,pitch_rate|Statistics of two "
          "results\n"
+         "launchdyn study plot out --over base.speed -o speed.svg|Results over a swept key, with "
+         "intervals\n"
          "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,
      .in_child = true},

@@ -121,11 +121,14 @@ static int finish(ld_status status, const ld_error *error, const char *done, con
 static const char *wrong_to_show(const study_wishes *wishes)
 {
     const ld_study_view *view = &wishes->view;
-    if (view->measured && (view->what || view->sensitivity || view->against))
-        return "--measured excludes --what, --sensitivity and --against: its file names the "
-               "results";
-    if (view->against && view->sensitivity)
-        return "--against and --sensitivity exclude each other";
+    if (view->measured && (view->sensitivity || view->against || view->over))
+        return "--measured excludes --sensitivity, --against and --over";
+    if (view->sensitivity && (view->against || view->over))
+        return "--sensitivity excludes --against and --over";
+    if (view->json && view->over)
+        return "--over is printed as a table; --json shows every point";
+    if (wishes->statistic || wishes->map)
+        return "--statistic and --map require study plot DIR";
     if (wishes->footprint)
         return "--footprint requires study export DIR";
     if (wishes->hdf5 || (wishes->csv && !view->against))
@@ -148,11 +151,41 @@ static ld_status export_files(const char *folder, const study_wishes *wishes, ld
                : ld_study_export_footprint(folder, wishes->footprint, error);
 }
 
+// The picture in the file that --out names, else in the study's folder.
+static int study_plot(const char *folder, const study_wishes *wishes)
+{
+    const ld_study_view *view = &wishes->view;
+    const ld_study_question question = {.what = view->what,
+                                        .over = view->over,
+                                        .against = view->against,
+                                        .statistic = wishes->statistic,
+                                        .map = wishes->map};
+    char file[4096];
+    ld_error error;
+    if (view->sensitivity || view->json || view->measured || wishes->csv) {
+        command_complain("study plot takes --what, --over, --and, --against, --statistic, --map "
+                         "and --out");
+        return EXIT_INPUT;
+    }
+    snprintf(file, sizeof file, "%s%s", wishes->run.folder ? wishes->run.folder : folder,
+             wishes->run.folder ? "" : "/plot.svg");
+    ld_status status = ld_study_plot(folder, &question, file, &error);
+    if (!status && !wishes->run.folder && !command_is_quiet())
+        printf("%s\n", file);
+    return finish(status, &error, "drew", file);
+}
+
 static int study_folder(const char *verb, const char *folder, const study_wishes *wishes)
 {
     const ld_study_view *view = &wishes->view;
     ld_error error;
     const char *wrong = wrong_to_show(wishes);
+    if (wishes->and_over && !wishes->over) {
+        command_complain("--and requires --over KEY");
+        return EXIT_INPUT;
+    }
+    if (strcmp(verb, "plot") == 0)
+        return study_plot(folder, wishes);
     if (strcmp(verb, "show") == 0 && wrong) {
         command_complain("%s", wrong);
         return EXIT_INPUT;
@@ -170,7 +203,8 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
             same ? "study export requires different files for --csv, --hdf5 and --footprint"
                  : "study export requires --csv FILE, --hdf5 FILE or --footprint FILE");
     else
-        command_complain("study: expected show DIR, export DIR or merge DIR, found %s", verb);
+        command_complain("study: expected show DIR, plot DIR, export DIR or merge DIR, found %s",
+                         verb);
     return EXIT_INPUT;
 }
 
@@ -195,18 +229,31 @@ static const char *wrong_to_run(const char *file, const char *again, const study
                "--set";
     if (again)
         file = "";
-    if (strcmp(file, "show") == 0 || strcmp(file, "export") == 0 || strcmp(file, "merge") == 0)
-        return "study show, study export and study merge require DIR";
+    if (strcmp(file, "show") == 0 || strcmp(file, "plot") == 0 || strcmp(file, "export") == 0 ||
+        strcmp(file, "merge") == 0)
+        return "study show, study plot, study export and study merge require DIR";
     if (wishes->csv || wishes->hdf5 || wishes->footprint)
         return "--csv, --hdf5 and --footprint require study export DIR";
     const ld_study_view *view = &wishes->view;
     if (view->what || view->sensitivity || view->json || view->measured || view->against)
         return "--what, --sensitivity, --json, --measured and --against require study show DIR";
+    if (view->over || wishes->and_over || wishes->statistic || wishes->map)
+        return "--over, --and, --statistic and --map require study show DIR or study plot DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
         return "--only and --shard exclude each other";
     if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
         return "--jobs: expected a number from 1 to 1024";
     return NULL;
+}
+
+// "KEY,KEY"; NULL: none.
+static const char *join_keys(study_wishes *wishes)
+{
+    if (!wishes->over)
+        return NULL;
+    snprintf(wishes->keys, sizeof wishes->keys, "%.500s%s%.500s", wishes->over,
+             wishes->and_over ? "," : "", wishes->and_over ? wishes->and_over : "");
+    return wishes->keys;
 }
 
 int command_study(const command *self, int argc, char **argv)
@@ -224,16 +271,25 @@ int command_study(const command *self, int argc, char **argv)
          "Run sample N only, with its history in DIR/sample-N", "N"},
         {"shard", '\0', OPTION_TEXT, &shard, "Run only part I of N of the study; then merge DIR",
          "I/N"},
-        {"what", 'w', OPTION_TEXT, &what, "For show: results to print, or all", "NAME,..."},
+        {"what", 'w', OPTION_TEXT, &what, "For show, plot: results, or all", "NAME,..."},
         {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
          "For show: share of the variance that each factor explains", NULL},
         {"json", '\0', OPTION_FLAG, &json, "For show: print as JSON, in full precision", NULL},
         {"measured", '\0', OPTION_TEXT, &measured,
          "For show: compare the results with the measured launches in this CSV file", "FILE"},
         {"against", '\0', OPTION_TEXT, &against,
-         "For show: differences of the other points from this one, given by number or "
-         "KEY=VALUE,...",
-         "POINT"},
+         "For show, plot: differences from this point, given by number or KEY=VALUE,...", "POINT"},
+        {"over", '\0', OPTION_TEXT, &wishes.over,
+         "For show, plot: a row, or a place on the axis, for each value of this swept key, pooled "
+         "over the other keys",
+         "KEY"},
+        {"and", '\0', OPTION_TEXT, &wishes.and_over,
+         "For show, plot: a second swept key, of plot as a family of curves or a map", "KEY"},
+        {"statistic", '\0', OPTION_TEXT, &wishes.statistic,
+         "For plot: mean (default), deviation, quantile:P, share:>LIMIT, share:<LIMIT or "
+         "footprint[:SHARE]",
+         "NAME"},
+        {"map", '\0', OPTION_FLAG, &wishes.map, "For plot: draw two keys as a map", NULL},
         {"csv", '\0', OPTION_TEXT, &wishes.csv,
          "For export: write the table as CSV; for show --against: write the differences", "FILE"},
         {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "For export: write the table as HDF5", "FILE"},
@@ -252,7 +308,8 @@ int command_study(const command *self, int argc, char **argv)
                                       .json = json,
                                       .measured = measured,
                                       .against = against,
-                                      .csv = against ? wishes.csv : NULL};
+                                      .csv = against ? wishes.csv : NULL,
+                                      .over = join_keys(&wishes)};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
         } else if (line.count == 2 && !again) {

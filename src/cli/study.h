@@ -15,13 +15,21 @@ typedef struct study_wishes {
     int only; // sample, or ALL_SAMPLES
     int shard, shards;
     ld_study_view view;
+    char *over, *and_over, *statistic; // keys of the sweep, of a picture its statistic
+    int map;
+    char keys[1024];              // both keys, with a comma between
     char *csv, *hdf5, *footprint; // files to be written
 } study_wishes;
 
 // The options that they share; overrides and folder are those of `wishes`.
 #define STUDY_OPTIONS(wishes)                                                                      \
     COMMAND_SETS(&(wishes)->run.sets),                                                             \
-        {"out", 'o', OPTION_TEXT, &(wishes)->run.folder, "Folder of the study", "DIR"},            \
+        {"out",                                                                                    \
+         'o',                                                                                      \
+         OPTION_TEXT,                                                                              \
+         &(wishes)->run.folder,                                                                    \
+         "Folder of the study; for plot: picture FILE.svg, .pdf or .png",                          \
+         "DIR"},                                                                                   \
         COMMAND_STRICT(&(wishes)->run.strict)
 
 // Prints warnings on all points of the study (command_take_notes()).

@@ -4,11 +4,13 @@
 #include <string.h>
 
 #include "base/numeric_locale.h"
+#include "figures/chart_map.h"
+#include "figures/labels.h"
 #include "figures/plot.h"
 #include "math/functions.h"
 
 // Pixels of the svg: of the heading, a chart, and from its edges to the axes.
-enum { HEADING = 40, HEIGHT = 330, LEFT = 78, RIGHT = 25, TOP = 58, BOTTOM = 52 };
+enum { HEADING = 40, HEIGHT = 330, LEFT = 78, RIGHT = 25, TOP = 58, BOTTOM = 52, COLOURS = 115 };
 
 typedef struct chart_page {
     const char *heading;
@@ -53,6 +55,24 @@ static bool drawable(const drawn_curve *drawn, size_t i)
     return isfinite(drawn->line.x[i]) && isfinite(drawn->line.y[i]);
 }
 
+// By the interval of a dot.
+static void widen(const chart_curve *curve, size_t i, double factor, double y[2])
+{
+    if (!curve->dots || !isfinite(curve->low[i]) || !isfinite(curve->high[i]))
+        return;
+    y[0] = fmin(y[0], curve->low[i] * factor);
+    y[1] = fmax(y[1], curve->high[i] * factor);
+}
+
+// Words have half a place each to both sides; dots stand clear of the axes.
+static void room_beside(const chart *self, double x[2])
+{
+    double room = x[1] > x[0] && self->count > 0 && self->curve[0].dots ? 0.03 * (x[1] - x[0]) : 0;
+    x[0] -= room, x[1] += room;
+    if (self->x_words.count > 0)
+        x[0] = -0.5, x[1] = self->x_words.count - 0.5;
+}
+
 // Ranges of the curves that are not faint, with some room above and below.
 static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], double y[2])
 {
@@ -64,8 +84,12 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
             if (!self->curve[j].faint && drawable(drawn, i)) {
                 x[0] = fmin(x[0], drawn->line.x[i]), x[1] = fmax(x[1], drawn->line.x[i]);
                 y[0] = fmin(y[0], drawn->line.y[i]), y[1] = fmax(y[1], drawn->line.y[i]);
+                widen(&self->curve[j], i, self->y_factor, y);
             }
     }
+    if (self->levelled)
+        y[0] = fmin(y[0], self->level), y[1] = fmax(y[1], self->level);
+    room_beside(self, x);
     double room = fmax(0.06 * (y[1] - y[0]), 1e-9 * fmax(fabs(y[0]), fabs(y[1])));
     if (!(x[1] > x[0]))
         x[0] = 0, x[1] = 1;
@@ -76,6 +100,19 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
     if (self->log_y && self->decades > 0)
         y[0] = fmax(y[0], y[1] - self->decades);
     y[0] -= room, y[1] += room;
+}
+
+// Of a dot the ends of its interval, too; without one those are the dot.
+static void write_point(FILE *script, const chart *self, const chart_curve *curve, size_t i)
+{
+    double y = curve->y[i] * self->y_factor;
+    fprintf(script, curve->dots ? "%.9g %.9g" : "%.6g %.6g", curve->x[i] * self->x_factor, y);
+    if (curve->dots) {
+        bool known = isfinite(curve->low[i]) && isfinite(curve->high[i]);
+        fprintf(script, " %.9g %.9g", known ? curve->low[i] * self->y_factor : y,
+                known ? curve->high[i] * self->y_factor : y);
+    }
+    fputc('\n', script);
 }
 
 // Each run of drawable points becomes a line; an empty line of data parts them.
@@ -95,9 +132,8 @@ static void write_data(FILE *script, size_t index, int j, const drawn_curve *dra
             last++;
         plot_thin(&drawn->line, first, last);
         for (size_t i = first; i <= last; i++)
-            if (drawn->line.keep[i]) {
-                fprintf(script, "%.6g %.6g\n", self->curve[j].x[i] * self->x_factor,
-                        self->curve[j].y[i] * self->y_factor);
+            if (drawn->line.keep[i] || self->curve[j].dots) {
+                write_point(script, self, &self->curve[j], i);
                 lines++;
             }
         fputc('\n', script);
@@ -124,6 +160,37 @@ static void write_faint_label(FILE *script, const drawn_curve *drawn, const char
         }
 }
 
+enum { LETTERS = 10 }; // size of those at ticks
+
+static double widest(const chart_words *words)
+{
+    double width = 0;
+    for (int i = 0; i < words->count; i++)
+        width = fmax(width, label_width(words->text[i], LETTERS));
+    return width;
+}
+
+// Words that do not stand beside each other go down.
+static bool are_turned(const chart_words *words)
+{
+    return words->count * widest(words) > 850;
+}
+
+static void write_ticks(FILE *script, char axis, const chart_words *words, bool turned)
+{
+    if (words->count == 0) {
+        fprintf(script, "set %ctics norotate autofreq\n", axis);
+        return;
+    }
+    fprintf(script, "set %ctics %s (", axis, turned ? "rotate by -20" : "norotate");
+    for (int i = 0; i < words->count; i++) {
+        fputs(i ? ", " : "", script);
+        plot_write_quoted(script, words->text[i]);
+        fprintf(script, " %d", i);
+    }
+    fputs(")\n", script);
+}
+
 static void write_axes(FILE *script, const chart *self, const double x[2], const double y[2])
 {
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\nunset logscale\n",
@@ -134,7 +201,14 @@ static void write_axes(FILE *script, const chart *self, const double x[2], const
     if (self->y_step > 0)
         fprintf(script, "set ytics %g\n", self->y_step);
     else
-        fputs("set ytics autofreq\n", script);
+        write_ticks(script, 'y', &self->y_words, false);
+    write_ticks(script, 'x', &self->x_words, are_turned(&self->x_words));
+    fputs("unset arrow\n", script);
+    if (self->levelled)
+        fprintf(script,
+                "set arrow from graph 0, first %.9g to graph 1, first %.9g nohead lw 1 lc rgb "
+                "'#909090'\n",
+                self->level, self->level);
     fputs("set label ", script);
     plot_write_quoted(script, self->title);
     fputs(" at graph 0,1.17 left font ',12'\nset xlabel ", script);
@@ -144,16 +218,32 @@ static void write_axes(FILE *script, const chart *self, const double x[2], const
     fputs(" font ',10'\n", script);
 }
 
+// A line, or dots with their intervals: of numbers joined.
+static void write_style(FILE *script, const chart *self, const chart_curve *curve, int style)
+{
+    if (curve->faint)
+        fputs("with lines lw 0.8 lc rgb '#b0b0b0' notitle", script);
+    else if (curve->dots)
+        fprintf(script, "with %s ls %d pt 7 ps 0.7 ",
+                self->x_words.count > 0 ? "points" : "linespoints", style);
+    else
+        fprintf(script, "with lines ls %d ", style);
+}
+
 static void write_plot(FILE *script, const chart *self, size_t index)
 {
     int style = 1;
+    const char *before = "plot";
     for (int j = 0; j < self->count; j++) {
         const chart_curve *curve = &self->curve[j];
-        fprintf(script, "%s $c%zud%d using 1:2 with lines ", j ? ", \\\n    " : "plot", index, j);
-        if (curve->faint)
-            fputs("lw 0.8 lc rgb '#b0b0b0' notitle", script);
-        else
-            fprintf(script, "ls %d ", style++);
+        if (curve->dots)
+            fprintf(script, "%s $c%zud%d using 1:2:3:4 with yerrorbars ls %d ps 0 notitle", before,
+                    index, j, style);
+        before = curve->dots ? ", \\\n    " : before;
+        fprintf(script, "%s $c%zud%d using 1:2 ", before, index, j);
+        before = ", \\\n    ";
+        write_style(script, self, curve, style);
+        style += !curve->faint;
         if (!curve->faint && *curve->label) {
             fputs("title ", script);
             plot_write_quoted(script, curve->label);
@@ -168,6 +258,8 @@ static void write_chart(FILE *script, const chart *self, size_t index, drawn_cur
 {
     double x[2], y[2];
     set_ranges(drawn, self, x, y);
+    if (self->map)
+        chart_map_ranges(self->map, x, y);
     fputs("unset label\n", script);
     drawn->line.x_span = x[1] - x[0];
     drawn->line.y_span = y[1] - y[0];
@@ -180,13 +272,59 @@ static void write_chart(FILE *script, const chart *self, size_t index, drawn_cur
     write_axes(script, self, x, y);
 }
 
-// The axes' place: of the chart whose upper edge is `above` pixels down.
-static void write_place(FILE *script, double above, double width, double height)
+// ---- the page
+
+static double bottom_of(const chart *self)
 {
-    fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n", LEFT / width,
-            1 - RIGHT / width);
+    double down = 0.34 * widest(&self->x_words); // sine of 20 degrees
+    return BOTTOM + (are_turned(&self->x_words) ? fmin(down, 150) : 0);
+}
+
+static double left_of(const chart *self)
+{
+    return fmax(LEFT, fmin(widest(&self->y_words), 200) + 34);
+}
+
+static double height_of(const chart *self)
+{
+    return HEIGHT - BOTTOM + bottom_of(self);
+}
+
+// The axes' place: of the chart whose upper edge is `above` pixels down.
+static void write_place(FILE *script, const chart *self, double above, double width, double height)
+{
+    fprintf(script, "set lmargin at screen %.6f\nset rmargin at screen %.6f\n",
+            left_of(self) / width, 1 - (self->map ? COLOURS : RIGHT) / width);
     fprintf(script, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
-            1 - (above + TOP) / height, 1 - (above + HEIGHT - BOTTOM) / height);
+            1 - (above + TOP) / height, 1 - (above + height_of(self) - bottom_of(self)) / height);
+}
+
+static void write_heading(FILE *script, const char *heading, double height)
+{
+    fputs("set label ", script);
+    plot_write_quoted(script, heading);
+    fprintf(script, " at screen 0.016, screen %.6f left font ',17'\n", 1 - 0.5 * HEADING / height);
+}
+
+static void write_page(FILE *script, const chart_page *page, drawn_curve *drawn, double width,
+                       double height)
+{
+    double above = HEADING;
+    fputs("set clip two\nset key at graph 1,1.08\n", script); // below the title
+    for (size_t i = 0; i < page->count; i++) {
+        const chart *self = &page->charts[i];
+        write_chart(script, self, i, drawn);
+        write_place(script, self, above, width, height);
+        if (i == 0)
+            write_heading(script, page->heading, height);
+        if (self->map)
+            chart_map_write(script, self->map, i, width - left_of(self) - COLOURS,
+                            HEIGHT - TOP - BOTTOM);
+        else
+            write_plot(script, self, i);
+        above += height_of(self);
+    }
+    fputs("unset multiplot\nunset output\n", script);
 }
 
 static ld_status write_charts(FILE *script, const void *what, plot_format format, ld_error *error)
@@ -195,23 +333,13 @@ static ld_status write_charts(FILE *script, const void *what, plot_format format
     drawn_curve drawn = {0};
     ld_status status = allocate(&drawn, page, error);
     if (!status) {
-        double height = HEADING + HEIGHT * (double)page->count;
-        locale_t before = numeric_locale_enter();
         const plot_style *style = plot_style_find(NULL, error);
-        plot_begin(script, format, style, plot_width(style, 0), height);
-        fputs("set clip two\nset key at graph 1,1.08\n", script); // below the title
-        for (size_t i = 0; i < page->count; i++) {
-            write_chart(script, &page->charts[i], i, &drawn);
-            write_place(script, HEADING + HEIGHT * (double)i, plot_width(style, 0), height);
-            if (i == 0) {
-                fputs("set label ", script);
-                plot_write_quoted(script, page->heading);
-                fprintf(script, " at screen 0.016, screen %.6f left font ',17'\n",
-                        1 - 0.5 * HEADING / height);
-            }
-            write_plot(script, &page->charts[i], i);
-        }
-        fputs("unset multiplot\nunset output\n", script);
+        double width = plot_width(style, 0), height = HEADING;
+        for (size_t i = 0; i < page->count; i++)
+            height += height_of(&page->charts[i]);
+        locale_t before = numeric_locale_enter();
+        plot_begin(script, format, style, width, height);
+        write_page(script, page, &drawn, width, height);
         numeric_locale_leave(before);
     }
     free(drawn.line.x);

@@ -12,16 +12,40 @@ enum { CHART_CURVES = 16 };
 typedef struct chart_curve {
     const char *label; // "" : not in the key
     size_t count;
-    const double *x, *y; // [count]; a gap where one is not finite
-    bool faint;          // grey and thin, its label beside its end
+    const double *x, *y;      // [count]; a gap where one is not finite
+    bool faint;               // grey and thin, its label beside its end
+    bool dots;                // a dot at each point, with its interval where that is finite
+    const double *low, *high; // [count] of dots
 } chart_curve;
+
+// Cells on a grid in place of curves: coloured by their values, which stand in them.
+typedef struct chart_map {
+    int columns, rows;
+    const double *x_edge, *y_edge; // [columns + 1], [rows + 1] in the units that the labels name
+    const double *x_tick, *y_tick; // [columns], [rows]; NULL: words
+    const double *value;           // [columns][rows] in the unit of the label; NaN: nothing
+    const char *(*text)[2];        // [columns][rows] value and interval, "" without
+    const char *label;             // of the colour bar
+    bool centred;                  // colours part at `middle`
+    double middle;
+} chart_map;
+
+// Words along an axis at 0, 1, 2, ...; or numbers.
+typedef struct chart_words {
+    int count;
+    const char *const *text; // [count]
+} chart_words;
 
 typedef struct chart {
     const char *title, *x_label, *y_label;
-    double x_factor, y_factor; // to the units that the labels name
-    bool log_x, log_y;         // values > 0 only
-    double decades;            // a logarithmic y axis shows of those below its top; 0: all
-    double y_step;             // between ticks of a linear y axis, in the unit; 0: as it comes
+    double x_factor, y_factor;    // to the units that the labels name
+    bool log_x, log_y;            // values > 0 only
+    double decades;               // a logarithmic y axis shows of those below its top; 0: all
+    double y_step;                // between ticks of a linear y axis, in the unit; 0: as it comes
+    chart_words x_words, y_words; // count 0: the axis has numbers
+    bool levelled;                // a thin line at this value of y, which the axis shows
+    double level;
+    const chart_map *map; // NULL: curves
     int count;
     chart_curve curve[CHART_CURVES];
 } chart;

@@ -192,13 +192,26 @@ ld_status plot_draw(plot_writer *write, const void *page, plot_format format, co
 
 // ---- the page ----
 
+static ld_status no_history(const char *folder, ld_error *error)
+{
+    char path[4096];
+    snprintf(path, sizeof path, "%s/study.db", folder);
+    if (access(path, F_OK) == 0)
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "%.400s contains a study: launchdyn study plot %.400s draws its results over "
+            "swept keys, launchdyn report %.400s its scatter",
+            folder, folder, folder);
+    return ld_fail(error, LD_ERR_INPUT, "no results in %.400s: there is no history.h5", folder);
+}
+
 // `note` (NULL: not requested) takes the first doubt.
 static ld_status read_folder(const char *folder, char *note, history_data *history, ld_error *error)
 {
     char path[4096], doubt[256];
     snprintf(path, sizeof path, "%s/history.h5", folder);
     if (access(path, F_OK) != 0)
-        return ld_fail(error, LD_ERR_INPUT, "no results in %.400s: there is no history.h5", folder);
+        return no_history(folder, error);
     ld_status status = manifest_check_history(folder, doubt, sizeof doubt, error);
     if (!status && note && *doubt && !*note)
         snprintf(note, LD_ERROR_TEXT, "%.300s: %s", folder, doubt);

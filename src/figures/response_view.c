@@ -913,8 +913,8 @@ static ld_status add_values(const ld_response_view *view, chart_page *page, ld_e
         chart *it = chart_of(page, view->column[i].unit);
         if (!it)
             return too_many(error);
-        it->curve[it->count++] =
-            (chart_curve){view->column[i].name, count, x, all + i * count, false};
+        it->curve[it->count++] = (chart_curve){
+            .label = view->column[i].name, .count = count, .x = x, .y = all + i * count};
     }
     if (page->count == 0)
         return ld_fail(error, LD_ERR_INPUT,

@@ -300,15 +300,18 @@ ld_status ld_road_view_draw(const ld_road_view *view, const char *file, ld_error
         snprintf(names[i], sizeof names[i], "class %c", class_letter(i));
         for (size_t j = 0; j <= view->bands; j++)
             lines[i][j] = road_class_density(i, view->edge[j]);
-        charts[1].curve[charts[1].count++] =
-            (chart_curve){names[i], view->bands + 1, view->edge, lines[i], true};
+        charts[1].curve[charts[1].count++] = (chart_curve){.label = names[i],
+                                                           .count = view->bands + 1,
+                                                           .x = view->edge,
+                                                           .y = lines[i],
+                                                           .faint = true};
     }
     for (int track = 0; track < (same ? 1 : 2); track++) {
         const char *label = same ? "both tracks" : track == ROAD_LEFT ? "left" : "right";
-        charts[0].curve[charts[0].count++] =
-            (chart_curve){label, view->count, view->x, view->height[track], false};
-        charts[1].curve[charts[1].count++] =
-            (chart_curve){label, view->bands, middle, view->density[track], false};
+        charts[0].curve[charts[0].count++] = (chart_curve){
+            .label = label, .count = view->count, .x = view->x, .y = view->height[track]};
+        charts[1].curve[charts[1].count++] = (chart_curve){
+            .label = label, .count = view->bands, .x = middle, .y = view->density[track]};
     }
     describe(view, title, sizeof title);
     return charts_draw(file, title, charts, 2, error);

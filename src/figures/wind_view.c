@@ -363,8 +363,13 @@ static void add_series(chart *to, const wind_series *series, const char *const a
 {
     for (int k = 0; k < AXES; k++)
         to->curve[to->count++] =
-            upright ? (chart_curve){axis[k], series->count, series->v[k], series->s, false}
-                    : (chart_curve){axis[k], series->count, series->s, series->v[k], false};
+            upright
+                ? (chart_curve){.label = axis[k],
+                                .count = series->count,
+                                .x = series->v[k],
+                                .y = series->s}
+                : (chart_curve){
+                      .label = axis[k], .count = series->count, .x = series->s, .y = series->v[k]};
 }
 
 ld_status ld_wind_view_draw(const ld_wind_view *view, const char *file, ld_error *error)
@@ -389,11 +394,11 @@ ld_status ld_wind_view_draw(const ld_wind_view *view, const char *file, ld_error
                                   "spatial frequency Ω [rad/m]", "density [m³/s²/rad]");
         charts[count].log_x = charts[count].log_y = true;
         for (int k = 0; k < AXES; k++)
-            charts[count].curve[charts[count].count++] =
-                (chart_curve){"", view->bands, middle, view->line[k], true};
+            charts[count].curve[charts[count].count++] = (chart_curve){
+                .label = "", .count = view->bands, .x = middle, .y = view->line[k], .faint = true};
         for (int k = 0; k < AXES; k++)
-            charts[count].curve[charts[count].count++] =
-                (chart_curve){inertial[k], view->bands, middle, view->density[k], false};
+            charts[count].curve[charts[count].count++] = (chart_curve){
+                .label = inertial[k], .count = view->bands, .x = middle, .y = view->density[k]};
         count++;
     }
     return charts_draw(file, "Wind", charts, count, error);

@@ -1,5 +1,6 @@
 #include "quantities/study_results.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/suggestion.h"
@@ -70,6 +71,23 @@ bool study_result_is_measure(const char *name)
 {
     const quantity *row = study_result_like(name);
     return row && !row->unit;
+}
+
+// As the table after a run has it; small angles and rates in milliradians.
+study_unit study_result_unit(const char *name, const char *si)
+{
+    static const struct {
+        const char *si;
+        study_unit shown;
+    } units[] = {{"rad", {"mrad", 1e3}}, {"rad/s", {"mrad/s", 1e3}},
+                 {"s", {"ms", 1e3}},     {"rad", {"deg", 57.29577951308232}},
+                 {"m", {"mm", 1e3}},     {"N", {"kN", 1e-3}}};
+    const quantity *row = study_result_like(name);
+    double factor = row && row->line.factor > 0 ? row->line.factor : si[0] == 'r' ? 1e3 : 1;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strcmp(units[i].si, si) == 0 && fabs(units[i].shown.factor / factor - 1) < 1e-9)
+            return units[i].shown;
+    return (study_unit){strcmp(si, "1") == 0 ? "" : si, 1};
 }
 
 const study_pair study_pairs[STUDY_PAIRS] = {

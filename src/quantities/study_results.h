@@ -20,6 +20,13 @@ const quantity *study_result_like(const char *name);
 // Whether the scenario itself asks for the result of that name.
 bool study_result_is_measure(const char *name);
 
+// The unit in which people read a result in SI unit `si`, "mrad/s", and the factor to it.
+typedef struct study_unit {
+    const char *name;
+    double factor;
+} study_unit;
+study_unit study_result_unit(const char *name, const char *si);
+
 // Two results of one unit that scatter together.
 typedef struct study_pair {
     const char *title;

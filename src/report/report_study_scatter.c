@@ -7,7 +7,7 @@
 #include "quantities/study_results.h"
 #include "report/report_study_numbers.h"
 #include "results/json_text.h"
-#include "studies/show/footprint.h"
+#include "studies/points/footprint.h"
 #include "studies/statistics/normality.h"
 
 // Bytes for what grows with the number of series; the rest of a report fits beside them.

@@ -42,7 +42,7 @@ static void test_help_and_version(void **state)
     // a space at least between a command's arguments and what it does
     assert_int_equal(run("launchdyn help | grep -E 'DIR[A-Z]|FILE[A-Z]|\\][A-Z]'"), 1);
     assert_int_equal(run("launchdyn help"), 0);
-    expect_in(shell.out, "  study     FILE | show DIR | export DIR | merge DIR\n"
+    expect_in(shell.out, "  study     FILE | show DIR | plot DIR | export DIR | merge DIR\n"
                          "                       Run a Monte Carlo study or a sweep");
 }
 
@@ -113,18 +113,27 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--csv x.csv", 2, "require study export DIR\n");
     expect_complaint(STUDY "--sensitivity", 2, "require study show DIR\n");
     expect_complaint(STUDY "--measured x.csv", 2, "require study show DIR\n");
-    expect_complaint("launchdyn study show x --measured x.csv --what pitch", 2,
-                     "--measured excludes --what, --sensitivity and --against");
+    expect_complaint("launchdyn study show x --measured x.csv --over base.speed", 2,
+                     "--measured excludes --sensitivity, --against and --over\n");
+    expect_complaint("launchdyn study show x --and base.speed", 2, "--and requires --over KEY\n");
+    expect_complaint("launchdyn study show x --statistic mean", 2,
+                     "--statistic and --map require study plot DIR\n");
+    expect_complaint("launchdyn study plot x --json", 2,
+                     "study plot takes --what, --over, --and, --against, --statistic, --map and "
+                     "--out\n");
+    expect_complaint(STUDY "--map", 2,
+                     "--over, --and, --statistic and --map require study show DIR or study plot "
+                     "DIR\n");
     expect_complaint(STUDY "--against 1", 2, "require study show DIR\n");
     expect_complaint("launchdyn study show x --against 1 --sensitivity", 2,
-                     "--against and --sensitivity exclude each other\n");
+                     "--sensitivity excludes --against and --over\n");
     expect_complaint("launchdyn study show x --csv y.csv", 2,
                      "--csv and --hdf5 require study export DIR, or --csv");
     expect_complaint("launchdyn report x --measured x.csv", 2,
                      "--measured requires at least one study\n");
     expect_complaint("launchdyn study show", 2, "study merge require DIR\n");
     expect_complaint("launchdyn study shwo x", 2,
-                     "study: expected show DIR, export DIR or merge DIR, found shwo");
+                     "study: expected show DIR, plot DIR, export DIR or merge DIR, found shwo");
     expect_complaint("launchdyn study examples/salvo.yaml", 2, "study requires --out DIR");
     assert_int_equal(run("test -e x"), 1);
 }

@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "math/curves/distributions.h"
 #include "studies/plan/pairs.h"
-#include "studies/show/against.h"
+#include "studies/points/against.h"
 
 enum { MOST = 200, REPEATS = 1000 };
 
@@ -406,8 +406,8 @@ static char *read_whole(const char *path)
 
 static char *shown(const char *name, const ld_study_view *view, ld_status expected, ld_error *error)
 {
-    char *text = NULL;
-    size_t length;
+    static char *text;
+    static size_t length;
     FILE *stream = open_memstream(&text, &length);
     assert_int_equal(ld_study_show(in(name), view, stream, error), expected);
     fclose(stream);
@@ -428,21 +428,44 @@ static void check_ratios(const char *text, const char *before, const char *forma
     CHECK_BELOW("  within samples", fabs(ratio[1] - expected[1]), bound);
 }
 
+// Over the key that is named, the other one pooled: each point counts alike, however many pairs it
+// has; deviations are those of the points that have two.
+static void check_pooled_text(const char *text)
+{
+    double difference = 0, ratio = 0;
+    printf("%s", text);
+    assert_non_null(strstr(text, "pooled over firing.order (2 values);"));
+    assert_non_null(strstr(text, "differences from base.speed 0 km/h;"));
+    const char *row = strstr(text, "\n15 km/h ");
+    assert_true(row && sscanf(row, " 15 km/h %lf [%*f, %*f] %lf", &difference, &ratio) == 2);
+    CHECK_BELOW("pooled difference", fabs(difference - (1 + 1.5) / 2), 5e-4);
+    CHECK_BELOW("pooled ratio", fabs(ratio - sqrt(584. / 605)), 5e-5);
+}
+
+static void check_pooled(void)
+{
+    ld_error error;
+    ld_study_view view = {.against = "base.speed=0 km/h", .what = "downrange"};
+    char *text = shown("made", &view, LD_OK, &error);
+    check_pooled_text(text);
+    free(text);
+}
+
 static void test_shown(void **state)
 {
     (void)state;
     ld_error error;
-    ld_study_view view = {.against = "base.speed=0 km/h", .csv = in("made.csv")};
+    ld_study_view view = {
+        .against = "base.speed=0 km/h", .over = "base.speed,firing.order", .csv = in("made.csv")};
     char *text = shown("made", &view, LD_OK, &error);
     printf("%s", text);
-    assert_non_null(strstr(text, "1. base.speed: 0 km/h, firing.order: [1, 2]\n2 samples kept"));
-    assert_non_null(strstr(text, "the reference\n"));
+    assert_non_null(strstr(text, "8 samples at 4 points, 1 failed; 95 % intervals"));
+    assert_non_null(strstr(text, "differences from base.speed 0 km/h;"));
     // of point 3 only a rocket of sample 7 has its pair
-    assert_non_null(strstr(text, "against point 1: less than two pairs of rockets\n"));
-    assert_non_null(strstr(text, "against point 2: 4 pairs of rockets, 2 independent groups"));
-    assert_non_null(strstr(text, "\ndownrange [m]              1.5 [1.5, 1.5] "));
-    assert_non_null(strstr(text, "\ndownrange and drift: areas "));
-    check_ratios(text, "\ndownrange [m] ", " downrange [m] %*f [%*f, %*f] %lf %lf", 5e-5);
+    assert_non_null(strstr(text, "\n15 km/h     [1, 2]         less than two pairs of rockets\n"));
+    assert_non_null(strstr(text, "\n15 km/h     [2, 1]         1.5 [1.5, 1.5] "));
+    assert_non_null(strstr(text, "\ndownrange and drift: areas of their ellipses\n"));
+    check_ratios(text, "\n15 km/h     [2, 1] ", " 15 km/h [2, 1] %*f [%*f, %*f] %lf %lf", 5e-5);
     free(text);
     text = read_whole(in("made.csv"));
     check_ratios(text, "\n4,15 km/h,\"[2, 1]\",2,downrange,",
@@ -459,6 +482,7 @@ static void test_shown(void **state)
     assert_true(mean == 0.25 && low < mean && mean < high);
     assert_non_null(strstr(text, "\n4,15 km/h,\"[2, 1]\",2,downrange and drift,m,4,2,,,,"));
     free(text);
+    check_pooled();
     view = (ld_study_view){.against = "3", .what = "drift"};
     free(shown("made", &view, LD_OK, &error));
     run_sql(in("made/study.db"), "UPDATE sample SET status = 'launch' WHERE sample > 2;");

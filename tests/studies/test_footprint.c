@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "math/curves/distributions.h"
-#include "studies/show/footprint.h"
+#include "studies/points/footprint.h"
 
 enum { MOST = 12000, LINES = 1200 };
 

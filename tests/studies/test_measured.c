@@ -333,12 +333,44 @@ static void test_table(void **state)
     free(table);
 }
 
+// Those that are named, by any name that the study knows, in that order; others are refused.
+static void test_chosen(void **state)
+{
+    (void)state;
+    static const char text[] = "t_rear [ms],exit_speed [m/s],pitch [deg]\n162,38,1\n163,,2\n";
+    measured launches;
+    ld_error error;
+    const char *file = shots_file(text, sizeof text - 1);
+    assert_int_equal(measured_read(file, &data, &launches, &error), LD_OK);
+    assert_int_equal(measured_choose(&launches, "pitch, t_rear,pitch", &data, &error), LD_OK);
+    assert_int_equal(launches.results, 2);
+    assert_string_equal(launches.result[0].name, "pitch");
+    assert_string_equal(launches.result[1].name, "t_rear");
+    assert_int_equal(launches.result[1].count, 2);
+    assert_int_equal(measured_choose(&launches, "t_rer", &data, &error), LD_ERR_INPUT);
+    assert_string_equal(error.text, "--what: no launch was measured for \"t_rer\"; did you mean "
+                                    "\"t_rear\"?");
+    assert_int_equal(measured_choose(&launches, "apogee", &data, &error), LD_ERR_INPUT);
+    assert_int_equal(measured_choose(&launches, ",", &data, &error), LD_ERR_INPUT);
+    assert_int_equal(launches.results, 2);
+    measured_free(&launches);
+    const ld_study_view view = {.measured = file, .what = "exit_speed"};
+    char *table = NULL;
+    size_t length;
+    FILE *stream = open_memstream(&table, &length);
+    assert_int_equal(ld_study_show(in("study"), &view, stream, &error), LD_OK);
+    fclose(stream);
+    assert_true(strstr(table, "exit_speed [m/s]") && !strstr(table, "t_rear"));
+    free(table);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_published),   cmocka_unit_test(test_too_few),
         cmocka_unit_test(test_how_often),   cmocka_unit_test(test_file),
         cmocka_unit_test(test_wrong_files), cmocka_unit_test(test_table),
+        cmocka_unit_test(test_chosen),
     };
     return cmocka_run_group_tests(tests, make_study, end_study);
 }

@@ -3,7 +3,7 @@
 #define LD_STUDIES_FOOTPRINT_SHAPE_H
 
 #include "environment/earth.h"
-#include "studies/show/footprint.h"
+#include "studies/points/footprint.h"
 
 // A closed line, its first corner not repeated: counter-clockwise an outline, else a hole.
 typedef struct footprint_line {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/suggestion.h"
 #include "base/text_file.h"
 #include "base/text_lines.h"
 #include "scenario/scenario_reader.h"
@@ -268,6 +269,49 @@ ld_status measured_read(const char *file, const study_data *data, measured *laun
     free(text);
     if (status)
         measured_free(launches);
+    return status;
+}
+
+// Moves the result of that name to place `*kept`.
+static ld_status keep_result(measured *launches, const char *name, const study_data *data,
+                             int *kept, ld_error *error)
+{
+    const char *nearest;
+    const study_column *column = study_data_find(data, name, &nearest);
+    name_suggestion suggestion = suggestion_begin(name);
+    for (int i = 0; i < launches->results; i++) {
+        const measured_result found = launches->result[i];
+        suggestion_offer(&suggestion, found.name);
+        if (strcmp(found.name, column ? column->name : name) != 0)
+            continue;
+        if (i >= *kept) {
+            launches->result[i] = launches->result[*kept];
+            launches->result[(*kept)++] = found;
+        }
+        return LD_OK;
+    }
+    return ld_fail(error, LD_ERR_INPUT, "--what: no launch was measured for \"%.100s\"%s%s%s", name,
+                   suggestion.name ? "; did you mean \"" : "",
+                   suggestion.name ? suggestion.name : "", suggestion.name ? "\"?" : "");
+}
+
+ld_status measured_choose(measured *launches, const char *names, const study_data *data,
+                          ld_error *error)
+{
+    int kept = 0;
+    char *copy = strdup(names), *rest = NULL;
+    ld_status status = copy ? LD_OK : no_memory(error);
+    for (char *name = copy ? strtok_r(copy, ", ", &rest) : NULL; name && !status;
+         name = strtok_r(NULL, ", ", &rest))
+        status = keep_result(launches, name, data, &kept, error);
+    free(copy);
+    if (!status && kept == 0)
+        status = ld_fail(error, LD_ERR_INPUT, "--what: \"%.100s\" names no result", names);
+    for (int i = kept; i < launches->results && !status; i++) {
+        free(launches->result[i].value);
+        free(launches->result[i].group);
+    }
+    launches->results = status ? launches->results : kept;
     return status;
 }
 

@@ -32,6 +32,11 @@ ld_status measured_read(const char *file, const study_data *data, measured *laun
                         ld_error *error);
 void measured_free(measured *launches);
 
+// Keeps the results that the text names, with commas between, in its order.
+// @return LD_OK, LD_ERR_INPUT (the file, or the study, has no such result), LD_ERR_MEMORY
+ld_status measured_choose(measured *launches, const char *names, const study_data *data,
+                          ld_error *error);
+
 // A measured result beside that of a study.
 typedef struct measured_comparison {
     group_statistics measured, simulated; // without least, greatest and quantiles

@@ -12,6 +12,7 @@
 #include "quantities/summary.h"
 #include "studies/show/show_json.h"
 #include "studies/show/show_numbers.h"
+#include "studies/show/show_over.h"
 #include "studies/show/shown.h"
 #include "studies/statistics/statistics.h"
 #include "studies/store/table_file.h"
@@ -298,8 +299,6 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     ld_status status = print_counts(self, point, error);
     if (!status && self->view->measured)
         return show_measured(self->stream, &self->launches, data, point, &self->values, error);
-    if (!status && self->view->against)
-        return show_against_point(&self->pairs, point, self->stream, error);
     const group_statistics *of = shown_statistics(self, point), *most = most_values(self, of);
     if (status || !most)
         return status;
@@ -376,13 +375,17 @@ static ld_status prepare(shown *self, ld_error *error)
     const ld_study_view *view = self->view;
     if (view->measured) {
         ld_status status = measured_read(view->measured, self->data, &self->launches, error);
+        if (!status && view->what && strcmp(view->what, "all") != 0)
+            status = measured_choose(&self->launches, view->what, self->data, error);
         if (!status && !view->json)
             show_launches(self->stream, view->measured, &self->launches);
         return status;
     }
     ld_status status = shown_choose(self, error);
+    if (!status && !view->against && !view->over)
+        status = shown_compute(self, error);
     if (status || !view->against)
-        return status ? status : shown_compute(self, error);
+        return status;
     self->pairs =
         (show_against){.of = &self->reference, .column = self->column, .count = self->count};
     return against_read(view->against, self->data, &self->reference, error);
@@ -393,32 +396,52 @@ static ld_status print_csv(void *pairs, FILE *stream, ld_error *error)
     return show_against_csv(pairs, stream, error);
 }
 
-// What follows all points.
-static ld_status print_conclusion(shown *self, ld_error *error)
+// All points in turn, then side by side.
+static ld_status print_points(shown *self, ld_error *error)
+{
+    const study_data *data = self->data;
+    const ld_study_view *view = self->view;
+    ld_status status = LD_OK;
+    for (int i = 0; i < data->point_count && !status; i++)
+        status = print_point(self, &data->point[i], error);
+    if (!status && data->point_count > 1 && !view->sensitivity && !view->measured)
+        print_side_by_side(self);
+    return status;
+}
+
+static ld_status print_over(shown *self, ld_error *error)
+{
+    over of;
+    ld_status status = show_over_open(self, &of, error);
+    if (!status)
+        status = show_over(self, &of, error);
+    over_close(&of);
+    return status;
+}
+
+static ld_status print_differences(shown *self, ld_error *error)
 {
     const ld_study_view *view = self->view;
-    if (!view->against) {
-        if (self->data->point_count > 1 && !view->sensitivity && !view->measured && !view->json)
-            print_side_by_side(self);
-        return LD_OK;
-    }
-    if (self->pairs.compared == 0)
+    ld_status status = view->json ? show_json(self, error) : print_over(self, error);
+    if (!status && view->json && self->pairs.compared == 0)
         return ld_fail(error, LD_ERR_INPUT,
                        "--against: no point has two pairs of rockets with the one that it is "
                        "compared with");
-    return view->csv ? table_file_print(print_csv, &self->pairs, view->csv, error) : LD_OK;
+    return status || !view->csv ? status
+                                : table_file_print(print_csv, &self->pairs, view->csv, error);
 }
 
 static ld_status print_all(shown *self, ld_error *error)
 {
-    const study_data *data = self->data;
     const ld_study_view *view = self->view;
     ld_status status = prepare(self, error);
-    if (!status && view->json)
-        status = show_json(self, error);
-    for (int i = 0; i < data->point_count && !status && !view->json; i++)
-        status = print_point(self, &data->point[i], error);
-    return status ? status : print_conclusion(self, error);
+    if (status)
+        return status;
+    if (view->against && !view->measured)
+        return print_differences(self, error);
+    if (view->json)
+        return show_json(self, error);
+    return view->over ? print_over(self, error) : print_points(self, error);
 }
 
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,

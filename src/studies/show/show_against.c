@@ -5,9 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#include "base/printed.h"
 #include "quantities/study_results.h"
-#include "studies/show/show_numbers.h"
 #include "studies/store/table_file.h"
 
 // ---- what is compared
@@ -70,64 +68,6 @@ ld_status show_against_each(show_against *self, const study_point *point, show_a
         if (!status && of.groups > 0)
             take(sink, column, columns, &of);
     }
-    return status;
-}
-
-// ---- as text
-
-enum { NAME = SHOW_NAME, DIFFERENCE = 36, RATIO = 26 };
-
-static void print_header(FILE *stream)
-{
-    fprintf(stream, "\n%-*s %-*s %-*s %s\n", NAME, "", DIFFERENCE, "difference of the means", RATIO,
-            "ratio of the deviations", "ratio within samples");
-}
-
-typedef struct table {
-    FILE *stream;
-    int64_t reference;
-    bool begun;
-} table;
-
-static void print_item(void *self, const study_column *const *column, int columns,
-                       const paired_statistics *of)
-{
-    table *into = self;
-    FILE *stream = into->stream;
-    char name[2 * 192];
-    if (!into->begun) {
-        fprintf(stream,
-                "against point %" PRId64 ": %zu pairs of rockets, %zu independent groups; 95 "
-                "%% intervals over groups\n",
-                into->reference, of->count, of->groups);
-        print_header(stream);
-    }
-    into->begun = true;
-    if (columns == 1) {
-        show_name(stream, NAME, column[0]->name, column[0]->unit);
-        show_estimate(stream, DIFFERENCE, &of->difference, NAN);
-    } else {
-        snprintf(name, sizeof name, "%.180s and %.180s: areas", column[0]->name, column[1]->name);
-        fprintf(stream, "%-*s", NAME + 1 + DIFFERENCE, VISIBLE(name));
-    }
-    show_estimate(stream, RATIO, &of->spread, NAN);
-    show_estimate(stream, 0, &of->within, NAN);
-    fputc('\n', stream);
-}
-
-ld_status show_against_point(show_against *self, const study_point *point, FILE *stream,
-                             ld_error *error)
-{
-    const study_point *reference = against_reference(self->of, point);
-    table into = {.stream = stream, .reference = reference->number};
-    if (reference == point) {
-        fputs("the reference\n", stream);
-        return LD_OK;
-    }
-    ld_status status = show_against_each(self, point, print_item, &into, error);
-    if (!status && !into.begun)
-        fprintf(stream, "against point %" PRId64 ": less than two pairs of rockets\n",
-                reference->number);
     return status;
 }
 

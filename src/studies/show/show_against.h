@@ -1,10 +1,10 @@
-// Points of a study against others, pair by pair, printed and as CSV.
+// Points of a study against others, pair by pair, one by one: as CSV, for JSON.
 #ifndef LD_STUDIES_SHOW_AGAINST_H
 #define LD_STUDIES_SHOW_AGAINST_H
 
 #include <stdio.h>
 
-#include "studies/show/against.h"
+#include "studies/points/against.h"
 
 // What is compared: these results, and the areas of ellipses of two of them.
 typedef struct show_against {
@@ -25,12 +25,9 @@ typedef void show_against_sink(void *sink, const study_column *const *column, in
 ld_status show_against_each(show_against *self, const study_point *point, show_against_sink *take,
                             void *sink, ld_error *error);
 
-// Prints how far a point is from its reference: mean differences, ratios of standard deviations, of
-// all pairs and within samples, ratios of the areas of ellipses; with intervals.
-ld_status show_against_point(show_against *self, const study_point *point, FILE *stream,
-                             ld_error *error);
-
-// The same of all points as CSV, in full precision, a line for each point and result.
+// Mean differences, ratios of standard deviations, of all pairs and within samples, ratios of the
+// areas of ellipses, with intervals: of all points as CSV, in full precision, a line for each point
+// and result.
 ld_status show_against_csv(show_against *self, FILE *stream, ld_error *error);
 
 #endif

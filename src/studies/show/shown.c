@@ -25,46 +25,78 @@ static ld_status no_memory(ld_error *error)
     return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
 }
 
-static ld_status add_column(shown *self, const char *name, ld_error *error)
+static ld_status add_column(const study_data *data, const char *name, const study_column **list,
+                            int *count, ld_error *error)
 {
     const char *nearest = NULL;
-    const study_column *column = study_data_find(self->data, name, &nearest);
+    const study_column *column = study_data_find(data, name, &nearest);
     if (!column)
         return ld_fail(error, LD_ERR_INPUT, "the study has no result \"%s\"%s%s%s", name,
                        nearest ? "; did you mean \"" : "", nearest ? nearest : "",
                        nearest ? "\"?" : "");
-    for (int i = 0; i < self->count; i++)
-        if (self->column[i] == column)
+    for (int i = 0; i < *count; i++)
+        if (list[i] == column)
             return LD_OK;
-    self->column[self->count++] = column;
+    list[(*count)++] = column;
     return LD_OK;
+}
+
+// Of a choice, those that there are.
+static ld_status add_columns(const study_data *data, const char *names, bool choice,
+                             const study_column **list, int *count, ld_error *error)
+{
+    char *copy = strdup(names), *rest = NULL;
+    ld_status status = copy ? LD_OK : no_memory(error);
+    for (char *name = copy ? strtok_r(copy, ", ", &rest) : NULL; name && !status;
+         name = strtok_r(NULL, ", ", &rest)) {
+        status = add_column(data, name, list, count, error);
+        status = choice ? LD_OK : status;
+    }
+    free(copy);
+    return status;
+}
+
+ld_status shown_add(const study_data *data, const char *names, const study_column **list,
+                    int *count, ld_error *error)
+{
+    ld_status status = add_columns(data, names, false, list, count, error);
+    if (!status && *count == 0)
+        return ld_fail(error, LD_ERR_INPUT, "\"%s\" names no result", names);
+    return status;
+}
+
+ld_status shown_add_usual(const study_data *data, const char *names, const study_column **list,
+                          int *count, ld_error *error)
+{
+    return add_columns(data, names, true, list, count, error);
+}
+
+void shown_add_measures(const study_data *data, const study_column **list, int *count)
+{
+    for (int i = 0; i < data->result_count; i++)
+        if (study_result_is_measure(data->column[i].name))
+            list[(*count)++] = &data->column[i];
 }
 
 ld_status shown_choose(shown *self, ld_error *error)
 {
     const study_data *data = self->data;
-    const char *what = self->view->what;
+    const ld_study_view *view = self->view;
     self->column = calloc((size_t)data->column_count + 1, sizeof(void *));
     if (!self->column)
         return no_memory(error);
-    if (what && strcmp(what, "all") == 0) {
+    if (view->what && strcmp(view->what, "all") == 0) {
         for (int i = 0; i < data->result_count; i++)
             self->column[self->count++] = &data->column[i];
         return LD_OK;
     }
-    char *names = strdup(what ? what : self->view->sensitivity ? sensitive : usual), *rest = NULL;
-    ld_status status = names ? LD_OK : no_memory(error);
-    for (char *name = names ? strtok_r(names, ", ", &rest) : NULL; name && !status;
-         name = strtok_r(NULL, ", ", &rest)) {
-        status = add_column(self, name, error);
-        status = what ? status : LD_OK; // of the choice, what there is
-    }
-    free(names);
-    for (int i = 0; i < data->result_count && !what; i++)
-        if (study_result_is_measure(data->column[i].name))
-            self->column[self->count++] = &data->column[i];
-    if (!status && what && self->count == 0)
-        return ld_fail(error, LD_ERR_INPUT, "\"%s\" names no result", what);
+    if (view->what)
+        return shown_add(data, view->what, self->column, &self->count, error);
+    bool few = view->sensitivity || view->over || view->against;
+    ld_status status =
+        shown_add_usual(data, few ? sensitive : usual, self->column, &self->count, error);
+    if (!status)
+        shown_add_measures(data, self->column, &self->count);
     return status;
 }
 

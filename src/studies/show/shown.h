@@ -3,7 +3,7 @@
 #define LD_STUDIES_SHOWN_H
 
 #include "launchdyn/study.h"
-#include "studies/show/footprint.h"
+#include "studies/points/footprint.h"
 #include "studies/show/show_against.h"
 #include "studies/show/show_measured.h"
 #include "studies/statistics/normality.h"
@@ -22,6 +22,14 @@ typedef struct shown {
     group_statistics *of; // [points][count]
     study_values values;  // read last
 } shown;
+
+// Adds results to a list with room for all, each once: those that the text names, with commas
+// between; of a usual choice those that there are; the scenario's measures.
+ld_status shown_add(const study_data *data, const char *names, const study_column **list,
+                    int *count, ld_error *error);
+ld_status shown_add_usual(const study_data *data, const char *names, const study_column **list,
+                          int *count, ld_error *error);
+void shown_add_measures(const study_data *data, const study_column **list, int *count);
 
 // Chooses what the view asks for, and computes the statistics of all points.
 ld_status shown_choose(shown *self, ld_error *error);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "quantities/study_results.h"
-#include "studies/show/footprint.h"
+#include "studies/points/footprint.h"
 #include "studies/statistics/sensitivity.h"
 #include "studies/store/study_data.h"
 

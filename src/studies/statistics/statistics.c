@@ -367,6 +367,24 @@ ld_status statistics_of(const double *value, const int64_t *group, size_t count,
     return status;
 }
 
+ld_status quantile_of_values(const double *value, const int64_t *group, size_t count, double q,
+                             estimate *quantile)
+{
+    grouped self = {.value = value, .group = group, .count = count};
+    group_statistics of;
+    double reach, *sorted = malloc((count + 1) * sizeof *sorted);
+    *quantile = (estimate){NAN, NAN, NAN};
+    ld_status status = sorted ? moments(&self, &of, &reach) : LD_ERR_MEMORY;
+    if (!status && count > 0) {
+        memcpy(sorted, value, count * sizeof *sorted);
+        sort_values(sorted, count);
+        *quantile = quantile_of(&self, sorted, q, reach);
+    }
+    free(sorted);
+    free(self.of);
+    return status;
+}
+
 // ---- tails
 
 ld_status tail_quantile_of(const double *value, const int64_t *group, size_t count, double q,
@@ -412,6 +430,21 @@ estimate share_below_quantile(double independent, double q)
     double a = q * (independent + 1), b = (1 - q) * (independent + 1);
     double tail = (1 - confidence) / 2;
     return (estimate){q, beta_quantile(a, b, tail), beta_quantile(a, b, 1 - tail)};
+}
+
+estimate share_interval(const uncertain *mean, size_t count)
+{
+    double p = mean->value, n = (double)count, groups = mean->freedom + 1, tail = confidence / 2;
+    if (isnan(mean->variance))
+        return (estimate){p, NAN, NAN};
+    // a group's number is whole: known no better than to a half
+    double simple = p * (1 - p) / n,
+           of_share = fmax(mean->variance, fmin(simple, groups / (4 * n * n)));
+    double t = student_quantile(0.5 + tail, n - 1) / student_quantile(0.5 + tail, mean->freedom);
+    double number = simple > 0 ? fmin(fmax(1, simple / of_share * n * t * t), n) : groups;
+    double x = p * number, rest = number - x, outside = 0.5 - tail;
+    return (estimate){p, x > 0 ? beta_quantile(x, rest + 1, outside) : 0,
+                      rest > 0 ? beta_quantile(x + 1, rest, 1 - outside) : 1};
 }
 
 const double ellipse_radius = 2.4477468306808161;

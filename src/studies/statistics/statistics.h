@@ -38,6 +38,17 @@ typedef struct uncertain {
 ld_status uncertain_mean_of(const double *value, const int64_t *group, size_t count,
                             uncertain *mean);
 
+// The quantile q of values as in statistics_of(), with its interval.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status quantile_of_values(const double *value, const int64_t *group, size_t count, double q,
+                             estimate *quantile);
+
+// A share, the mean of so many values that are 0 or 1, with the interval of as many independent
+// ones as tell it as well: of C. J. Clopper and E. S. Pearson (Biometrika 26, 1934) for the
+// effective number of E. L. Korn and B. I. Graubard (Survey Methodology 24, 1998), at most `count`.
+// Where all values are alike that is the number of groups.
+estimate share_interval(const uncertain *mean, size_t count);
+
 // Sorts values, the least first.
 void sort_values(double *value, size_t count);
 // Quantile of sorted values, linear between them.

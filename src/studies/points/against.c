@@ -1,4 +1,4 @@
-#include "studies/show/against.h"
+#include "studies/points/against.h"
 
 #include <inttypes.h>
 #include <stdio.h>

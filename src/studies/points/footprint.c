@@ -1,4 +1,4 @@
-#include "studies/show/footprint.h"
+#include "studies/points/footprint.h"
 
 #include <stdio.h>
 #include <stdlib.h>
