@@ -218,38 +218,38 @@ static void write_axes(FILE *script, const chart *self, const double x[2], const
     fputs(" font ',10'\n", script);
 }
 
-// A line, or dots with their intervals: of numbers joined.
-static void write_style(FILE *script, const chart *self, const chart_curve *curve, int style)
+static void write_title(FILE *script, const chart_curve *curve)
 {
-    if (curve->faint)
-        fputs("with lines lw 0.8 lc rgb '#b0b0b0' notitle", script);
-    else if (curve->dots)
-        fprintf(script, "with %s ls %d pt 7 ps 0.7 ",
-                self->x_words.count > 0 ? "points" : "linespoints", style);
-    else
-        fprintf(script, "with lines ls %d ", style);
+    if (*curve->label) {
+        fputs("title ", script);
+        plot_write_quoted(script, curve->label);
+    } else {
+        fputs("notitle", script);
+    }
 }
 
+// A line; of dots with their intervals one below them, where the axis has numbers.
 static void write_plot(FILE *script, const chart *self, size_t index)
 {
     int style = 1;
     const char *before = "plot";
     for (int j = 0; j < self->count; j++) {
         const chart_curve *curve = &self->curve[j];
-        if (curve->dots)
-            fprintf(script, "%s $c%zud%d using 1:2:3:4 with yerrorbars ls %d ps 0 notitle", before,
-                    index, j, style);
-        before = curve->dots ? ", \\\n    " : before;
-        fprintf(script, "%s $c%zud%d using 1:2 ", before, index, j);
-        before = ", \\\n    ";
-        write_style(script, self, curve, style);
-        style += !curve->faint;
-        if (!curve->faint && *curve->label) {
-            fputs("title ", script);
-            plot_write_quoted(script, curve->label);
-        } else if (!curve->faint) {
-            fputs("notitle", script);
+        if (!curve->dots || self->x_words.count == 0) {
+            fprintf(script, "%s $c%zud%d using 1:2 with lines ", before, index, j);
+            before = ", \\\n    ";
+            if (curve->faint)
+                fputs("lw 0.8 lc rgb '#b0b0b0' notitle", script);
+            else
+                fprintf(script, "ls %d %s", style, curve->dots ? "notitle" : "");
         }
+        if (curve->dots)
+            fprintf(script, "%s $c%zud%d using 1:2:3:4 with yerrorbars ls %d pt 7 ps 0.7 ", before,
+                    index, j, style);
+        before = ", \\\n    ";
+        if (!curve->faint)
+            write_title(script, curve);
+        style += !curve->faint;
     }
     fputc('\n', script);
 }

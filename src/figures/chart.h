@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "figures/chart_map.h"
 #include "launchdyn/status.h"
 
 enum { CHART_CURVES = 16 };
@@ -17,18 +18,6 @@ typedef struct chart_curve {
     bool dots;                // a dot at each point, with its interval where that is finite
     const double *low, *high; // [count] of dots
 } chart_curve;
-
-// Cells on a grid in place of curves: coloured by their values, which stand in them.
-typedef struct chart_map {
-    int columns, rows;
-    const double *x_edge, *y_edge; // [columns + 1], [rows + 1] in the units that the labels name
-    const double *x_tick, *y_tick; // [columns], [rows]; NULL: words
-    const double *value;           // [columns][rows] in the unit of the label; NaN: nothing
-    const char *(*text)[2];        // [columns][rows] value and interval, "" without
-    const char *label;             // of the colour bar
-    bool centred;                  // colours part at `middle`
-    double middle;
-} chart_map;
 
 // Words along an axis at 0, 1, 2, ...; or numbers.
 typedef struct chart_words {
