@@ -112,6 +112,34 @@ typedef struct ld_study_footprint {
 ld_status ld_study_data_footprint(ld_study_data *data, int point, double share,
                                   const ld_study_footprint **footprint, ld_error *error);
 
+/// What is asked of a sweep.
+typedef struct ld_study_over {
+    const char *result;  ///< name of a column; NULL of a footprint
+    const char *over;    ///< one or two swept keys, "base.speed,firing.interval"; NULL: the first
+    const char *against; ///< a point by number or as KEY=VALUE,...: differences from it; NULL: none
+    const char *statistic;   ///< as of ld_study_question (launchdyn/study.h); NULL: "mean"
+    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+} ld_study_over;
+
+/// A value of the swept key, or a pair of values of two, pooled over the other keys: every point
+/// has the same weight, intervals count the groups that all points share (docs/study.md).
+typedef struct ld_study_cell {
+    const char *text[2];  ///< as in the scenario; NULL: of one key the second
+    double number[2];     ///< in `unit`; NaN where the key's values are no numbers of one kind
+    const char *unit[2];  ///< as in the scenario; "" without
+    ld_estimate estimate; ///< SI; of differences that of the means or shares, ratio of deviations
+    size_t count, groups; ///< rockets, or pairs of them; independent groups
+    int points;           ///< that have them
+    bool reference;       ///< what differences are from: `estimate` is NaN
+} ld_study_cell;
+
+/// A result over the values of swept keys, the first key varying most slowly.
+/// @param cell [*count] the data's own, until the next call that reads
+/// @return LD_OK; LD_ERR_INPUT (no sweep, no such key, result, point or statistic), LD_ERR_FILE,
+///         LD_ERR_MEMORY
+ld_status ld_study_data_pool(ld_study_data *data, const ld_study_over *question,
+                             const ld_study_cell **cell, size_t *count, ld_error *error);
+
 #pragma GCC visibility pop
 #ifdef __cplusplus
 }

@@ -22,8 +22,8 @@ from .result import Column, History, Quantity, Result, Summary
 from .scenario import Scenario
 from .simulation import (BaseFrame, Event, EventKind, Mode, Pole, Run, Simulation, VehicleRun,
                          Wrench)
-from .study import (Counts, Estimate, Footprint, Point, Statistics, Study, StudyColumn,
-                    StudyData, merge_shards, write_report)
+from .study import (Cell, Cells, Counts, Estimate, Footprint, Point, Statistics, Study,
+                    StudyColumn, StudyData, merge_shards, write_report)
 from .views import View, draw, figures
 
 
@@ -33,8 +33,8 @@ def library_version() -> str:
 
 
 __all__ = [
-    "BaseFrame", "Column", "Counts", "Estimate", "Event", "EventKind", "FileError",
-    "Footprint", "History", "InputError", "Interrupted", "Key", "LaunchError",
+    "BaseFrame", "Cell", "Cells", "Column", "Counts", "Estimate", "Event", "EventKind",
+    "FileError", "Footprint", "History", "InputError", "Interrupted", "Key", "LaunchError",
     "LaunchdynError", "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode",
     "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run",
     "Scatter", "Scenario", "Simulation", "Statistics", "Status", "Strength", "Study",

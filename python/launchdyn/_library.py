@@ -98,7 +98,7 @@ class ld_study_options(Structure):
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
                 ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
-                ("reserved", c_void_p * 1)]
+                ("over", c_char_p)]
 
 
 class ld_study_column(Structure):
@@ -130,6 +130,17 @@ class ld_study_footprint(Structure):
     _fields_ = [("share", c_double), ("needed", c_double), ("independent", c_double),
                 ("stated", c_bool), ("content", ld_estimate), ("area", ld_estimate),
                 ("distance", ld_estimate)]
+
+
+class ld_study_over(Structure):
+    _fields_ = [("result", c_char_p), ("over", c_char_p), ("against", c_char_p),
+                ("statistic", c_char_p), ("reserved", c_void_p * 4)]
+
+
+class ld_study_cell(Structure):
+    _fields_ = [("text", c_char_p * 2), ("number", c_double * 2), ("unit", c_char_p * 2),
+                ("estimate", ld_estimate), ("count", c_size_t), ("groups", c_size_t),
+                ("points", c_int), ("reference", c_bool)]
 
 
 class ld_report(Structure):
@@ -338,6 +349,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
                                          POINTER(POINTER(ld_study_statistics)), _error]),
     "ld_study_data_footprint": (c_int, [_handle, c_int, c_double,
                                         POINTER(POINTER(ld_study_footprint)), _error]),
+    "ld_study_data_pool": (c_int, [_handle, POINTER(ld_study_over),
+                                   POINTER(POINTER(ld_study_cell)), POINTER(c_size_t), _error]),
     "ld_study_data_sensitivity": (c_int, [_handle, c_int, _text, _text, POINTER(ld_estimate),
                                           _error]),
 }

@@ -10,7 +10,7 @@ from .errors import MissingError
 
 if TYPE_CHECKING:
     from .result import History
-    from .study import StudyData
+    from .study import Cell, Cells, StudyData
 
 
 def _pyplot() -> Any:
@@ -90,4 +90,65 @@ def plot_study(data: StudyData, names: Sequence[str], over: Optional[str], ax: A
             at.set_ylabel("rockets")
         if len(points) > 1:
             at.legend()
+    return axes[0] if len(axes) == 1 else axes
+
+
+def _what(name: str, statistic: str, against: Optional[str], unit: str) -> tuple[str, str]:
+    """What the estimates are, and their unit."""
+    kind = statistic.partition(":")[0]
+    if kind == "footprint":
+        return "area of the footprint", "m2"
+    text = f"{name}: {statistic}"
+    if not against:
+        return text, "" if kind == "share" else unit
+    return f"{text}, against {against}", unit if kind == "mean" else ""
+
+
+def _curve(at: Any, cells: Sequence[Cell], places: Sequence[float], same: float,
+           style: Mapping[str, Any]) -> None:
+    """Dots with their intervals; cells of reference are what is the same."""
+    drawn = sorted(zip(places, cells), key=lambda one: one[0])
+    y = [same if c.reference else c.estimate.value for _, c in drawn]
+    known = [c.estimate.low == c.estimate.low for _, c in drawn]
+    below = [c.estimate.value - c.estimate.low if k else 0 for (_, c), k in zip(drawn, known)]
+    above = [c.estimate.high - c.estimate.value if k else 0 for (_, c), k in zip(drawn, known)]
+    at.errorbar([x for x, _ in drawn], y, yerr=[below, above], capsize=3, **style)
+
+
+def _draw_over(at: Any, cells: Cells, against: Optional[str], statistic: str,
+               style: Mapping[str, Any]) -> None:
+    """A curve, or one for each value of the second key; words stand beside each other."""
+    same = 1.0 if statistic == "deviation" else 0.0
+    numeric = all(c.numbers[0] == c.numbers[0] for c in cells)
+    words = list(dict.fromkeys(c.values[0] for c in cells))
+    family = list(dict.fromkeys(c.values[1:] for c in cells))
+    for k, values in enumerate(family):
+        own = [c for c in cells if c.values[1:] == values]
+        aside = 0.6 / len(family) * (k - (len(family) - 1) / 2)
+        places = [c.numbers[0] if numeric else words.index(c.values[0]) + aside for c in own]
+        label = f"{cells.keys[1]} {values[0]}" if values else None
+        _curve(at, own, places, same, {"fmt": "o-" if numeric else "o", "label": label, **style})
+    if against:
+        at.axhline(same, color="0.6", linewidth=1)
+    if not numeric:
+        at.set_xticks(range(len(words)), words)
+    if len(family) > 1:
+        at.legend()
+    at.grid(alpha=0.3)
+
+
+def plot_over(data: StudyData, names: Sequence[str], keys: Sequence[str], against: Optional[str],
+              statistic: str, ax: Any, style: Mapping[str, Any]) -> Any:
+    """StudyData.plot() over swept keys."""
+    footprint = statistic.startswith("footprint")
+    if not names and not footprint:
+        raise ValueError("no results given; `results` lists them")
+    of = [data.over(name, *keys, against=against, statistic=statistic)
+          for name in (names or (None,))]
+    axes, columns = _axes(len(of), ax, share=True), data.columns
+    for at, cells in zip(axes, of):
+        unit = "" if footprint else columns[cells.result].unit
+        _draw_over(at, cells, against, statistic, style)
+        _label(at.yaxis, *_what(cells.result, statistic, against, unit))
+        at.set_xlabel(f"{cells.keys[0]} [{cells.units[0]}]" if cells.units[0] else cells.keys[0])
     return axes[0] if len(axes) == 1 else axes

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -16,7 +16,8 @@ import numpy.typing as npt
 
 from ._interrupt import Interrupt
 from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_study_counts,
-                       ld_study_footprint, ld_study_options, ld_study_statistics, ld_study_values,
+                       ld_study_cell, ld_study_footprint, ld_study_options, ld_study_over,
+                       ld_study_statistics, ld_study_values,
                        ld_study_view, library)
 from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
@@ -76,6 +77,41 @@ class Footprint:
     content: Estimate  #: share of further landings that lie within
     area: Estimate  #: [m2]
     distance: Estimate  #: [m] from the launch point to the farthest point
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A value of a swept key, or a pair of values of two, pooled over the other swept keys
+    (docs/study.md)."""
+
+    values: tuple[str, ...]  #: of the keys, as in the scenario
+    numbers: tuple[float, ...]  #: in the keys' units; NaN where they are no numbers of one kind
+    estimate: Estimate  #: in SI; of differences that of the means, or ratio of the deviations
+    count: int  #: rockets, or pairs of them
+    groups: int  #: independent ones
+    points: int  #: that have them
+    reference: bool  #: what differences are from: the estimate is NaN
+
+
+class Cells(list[Cell]):
+    """Cells in the order of the sweep, the first key varying most slowly."""
+
+    def __init__(self, cells: Iterable[Cell], keys: tuple[str, ...], units: tuple[str, ...],
+                 result: str) -> None:
+        """Of keys with their units, and what the estimates are of."""
+        super().__init__(cells)
+        self.keys, self.units, self.result = keys, units, result
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each cell: the keys' values, numbers where they are, then `value`, `low`,
+        `high` in SI, `count`, `groups`, `points`, `reference`."""
+        pandas = pandas_here()
+        rows = [[*(number if unit or number == number else text for text, number, unit
+                   in zip(c.values, c.numbers, self.units)), *c.estimate, c.count, c.groups,
+                 c.points, c.reference] for c in self]
+        names = [f"{key} [{unit}]" if unit else key for key, unit in zip(self.keys, self.units)]
+        return pandas.DataFrame(rows, columns=[*names, "value", "low", "high", "count", "groups",
+                                               "points", "reference"])
 
 
 @dataclass(frozen=True)
@@ -364,6 +400,28 @@ class StudyData(Held):
             return Footprint(f.share, f.needed, f.independent, f.stated, _estimate(f.content),
                              _estimate(f.area), _estimate(f.distance))
 
+    def over(self, result: Optional[str], *keys: str, against: Optional[str] = None,
+             statistic: str = "mean") -> Cells:
+        """A result over the values of one swept key or two (without: the first), pooled over the
+        others. `statistic` as of `launchdyn study plot`: "mean", "deviation", "quantile:0.95",
+        "share:>20 mrad/s", "footprint" (of no result); `against` a point: paired differences."""
+        error, count = ld_error(), ctypes.c_size_t()
+        found = ctypes.POINTER(ld_study_cell)()
+        asked = ld_study_over(result=coded(result) if result else None,
+                              over=coded(",".join(keys)) if keys else None,
+                              against=coded(against) if against else None,
+                              statistic=coded(statistic))
+        swept = keys or tuple(self.swept[:1])
+        if result:
+            tell_renamed(result)
+        with self._lock:
+            check(library.ld_study_data_pool(self._pointer, ctypes.byref(asked),
+                                             ctypes.byref(found), ctypes.byref(count),
+                                             ctypes.byref(error)), error)
+            cells = [found[i] for i in range(count.value)]
+            units = tuple(text_of(unit) for unit in cells[0].unit[:len(swept)])
+            return Cells((_cell(c, len(swept)) for c in cells), swept, units, result or statistic)
+
     def to_pandas(self, *names: str) -> pandas.DataFrame:
         """Columns (all, without names) of all points as a data frame, in SI: swept keys as texts,
         sample, rocket, then the columns, NaN where a rocket lacks a value; units in
@@ -410,18 +468,20 @@ class StudyData(Held):
     # ---- to look at
 
     def show(self, what: Optional[str] = None, sensitivity: bool = False,
-             measured: Optional[PathLike] = None, against: Optional[str] = None) -> str:
+             measured: Optional[PathLike] = None, against: Optional[str] = None,
+             over: Union[str, Sequence[str], None] = None) -> str:
         """The tables that `launchdyn study show` prints, of results by name or "all"; compared with
-        the `measured` launches of a CSV file; or how far points of the sweep are from one,
-        `against`."""
+        the `measured` launches of a CSV file; how far points of the sweep are from one, `against`;
+        or a row for each value of one swept key or two, `over`, pooled over the others."""
         error, view = ld_error(), ld_study_view(
             what=coded(what) if what else None, sensitivity=sensitivity,
             measured=coded_path(measured) if measured else None,
-            against=coded(against) if against else None)
+            against=coded(against) if against else None,
+            over=coded(over if isinstance(over, str) else ",".join(over)) if over else None)
         status = []
         text = printed(lambda to: status.append(library.ld_study_show(
             coded_path(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
-        named = what and not measured and not against
+        named = what and not measured and not against and not over
         check_name(status[0], error) if named else check(status[0], error)
         return text
 
@@ -443,11 +503,18 @@ class StudyData(Held):
                                                     coded_path(footprint),
                                                     ctypes.byref(error)), error)
 
-    def plot(self, *names: str, over: Optional[str] = None, ax: Any = None, **style: Any) -> Any:
+    def plot(self, *names: str, over: Union[str, Sequence[str], None] = None,
+             against: Optional[str] = None, statistic: Optional[str] = None, ax: Any = None,
+             **style: Any) -> Any:
         """Draws, by matplotlib, how results scatter: histograms, a colour for each point of the
-        sweep; `over` a factor as points. Returns the axes, or a list of them."""
-        from .plotting import plot_study
-        return plot_study(self, names, over, ax, style)
+        sweep; `over` a factor as points. `over` one swept key or two: over()'s estimates with
+        their intervals, a curve for each value of the second key. Returns the axes, or a list of
+        them."""
+        from .plotting import plot_over, plot_study
+        keys = (over,) if isinstance(over, str) else tuple(over or ())
+        if against or statistic or len(keys) > 1 or set(keys) & set(self.swept):
+            return plot_over(self, names, keys, against, statistic or "mean", ax, style)
+        return plot_study(self, names, keys[0] if keys else None, ax, style)
 
     def write_report(self, file: PathLike) -> None:
         """Writes one HTML file that shows the study in any browser, offline."""
@@ -466,6 +533,11 @@ class StudyData(Held):
 
 def _copy(pointer: Any, count: int, kind: Any) -> npt.NDArray[Any]:
     return np.array(pointer[:count], kind) if count else np.empty(0, kind)
+
+
+def _cell(c: ld_study_cell, keys: int) -> Cell:
+    return Cell(tuple(text_of(text) for text in c.text[:keys]), tuple(c.number[:keys]),
+                _estimate(c.estimate), c.count, c.groups, c.points, c.reference)
 
 
 def _estimate(e: ld_estimate) -> Estimate:

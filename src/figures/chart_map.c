@@ -9,7 +9,7 @@
 static const char rising[] = "0 '#440154', 1 '#46327e', 2 '#365c8d', 3 '#277f8e', 4 '#1fa187', "
                              "5 '#4ac16d', 6 '#a0da39', 7 '#fde725'";
 static const char apart[] = "0 '#2166ac', 1 '#67a9cf', 2 '#f7f7f7', 3 '#ef8a62', 4 '#b2182b'";
-enum { LETTERS = 10, LINE = 14 };
+enum { LETTERS = 10, LINE = 14, BAR = 107 }; // BAR: from the axes to the name of the bar
 
 void chart_map_ranges(const chart_map *self, double x[2], double y[2])
 {
@@ -106,10 +106,12 @@ void chart_map_write(FILE *script, const chart_map *self, size_t index, double w
     chart_map_ranges(self, x, y);
     const map_room pixels = {width / (x[1] - x[0]), height / (y[1] - y[0])};
     write_cells(script, self, index);
-    fprintf(script, "set palette defined (%s)\nset cbrange [%.9g:%.9g]\nset cblabel ",
+    fprintf(script,
+            "set palette defined (%s)\nset cbrange [%.9g:%.9g]\nunset cblabel\nset colorbox\nset "
+            "label ",
             self->centred ? apart : rising, range[0], range[1]);
     plot_write_quoted(script, self->label);
-    fputs(" offset 1,0 font ',10'\nset colorbox\n", script);
+    fprintf(script, " at graph %.6f, graph 0.5 center rotate font ',10'\n", 1 + BAR / width);
     write_ticks(script, 'x', self->x_tick, self->columns);
     write_ticks(script, 'y', self->y_tick, self->rows);
     for (int cell = 0; cell < self->columns * self->rows; cell++)

@@ -33,6 +33,8 @@ SIZE(ld_watch, 16);
 SIZE(ld_run_options, 64);
 SIZE(ld_sink, 72);
 SIZE(ld_study_options, 72);
+SIZE(ld_study_over, 64);
+SIZE(ld_study_question, 64);
 SIZE(ld_study_view, 48);
 SIZE(ld_mstmm_beam, 88);
 SIZE(ld_mstmm_description, 80);
@@ -43,6 +45,7 @@ SIZE(ld_mstmm_settings, 80);
 // Handed out one by one: may grow at their ends, up to which programs know them.
 SIZE(ld_key, 56);
 SIZE(ld_quantity, 32);
+SIZE(ld_study_cell, 96);
 SIZE(ld_study_column, 24);
 SIZE(ld_study_footprint, 104);
 SIZE(ld_study_point, 40);

@@ -4,6 +4,7 @@
 
 #include "quantities/study_results.h"
 #include "studies/points/footprint.h"
+#include "studies/points/over_statistic.h"
 #include "studies/statistics/sensitivity.h"
 #include "studies/store/study_data.h"
 
@@ -13,6 +14,8 @@ struct ld_study_data {
     ld_study_values told;
     group_statistics statistics;
     footprint footprint;
+    over over; // asked last, whose texts the cells have
+    ld_study_cell *cell;
 };
 
 ld_status ld_study_data_open(const char *folder, ld_study_data **out, ld_error *error)
@@ -34,6 +37,8 @@ void ld_study_data_close(ld_study_data *self)
     if (!self)
         return;
     study_values_free(&self->read);
+    over_close(&self->over);
+    free(self->cell);
     study_data_close(&self->data);
     free(self);
 }
@@ -146,4 +151,77 @@ ld_status ld_study_data_footprint(ld_study_data *self, int point, double share,
                             "there is no footprint of a share of %g: they are of 0.95, 0.99 and "
                             "0.999",
                             share);
+}
+
+// ---- over swept keys
+
+static ld_study_cell cell_of(const over *of, int index, const over_found *found)
+{
+    ld_study_cell cell = {.number = {NAN, NAN},
+                          .unit = {"", ""},
+                          .estimate = found->of,
+                          .count = found->count,
+                          .groups = found->groups,
+                          .points = found->points,
+                          .reference = found->reference};
+    for (int k = 0; k < of->count; k++) {
+        const over_key *key = &of->key[k];
+        cell.text[k] = over_text(of, index, k);
+        cell.number[k] = key->numeric ? key->number[over_value_of(of, index, k)] : NAN;
+        cell.unit[k] = key->numeric ? key->unit : "";
+    }
+    return cell;
+}
+
+static ld_status find_result(const ld_study_data *self, const ld_study_over *question,
+                             const over_statistic *statistic, const study_column **result,
+                             ld_error *error)
+{
+    const char *nearest = NULL;
+    *result = question->result ? study_data_find(&self->data, question->result, &nearest) : NULL;
+    if (*result || (!question->result && statistic->kind == OVER_FOOTPRINT))
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT, "the study has no column \"%.200s\"%s%s%s",
+                   question->result ? question->result : "", nearest ? "; did you mean \"" : "",
+                   nearest ? nearest : "", nearest ? "\"?" : "");
+}
+
+static ld_status fill_cells(ld_study_data *self, const over_statistic *statistic,
+                            const study_column *result, size_t *count, ld_error *error)
+{
+    int cells = over_cell_count(&self->over);
+    ld_status status = LD_OK;
+    free(self->cell);
+    self->cell = calloc((size_t)cells + 1, sizeof *self->cell);
+    if (!self->cell)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for a study's data");
+    for (int i = 0; i < cells && !status; i++) {
+        over_found found;
+        status = over_find(&self->over, i, statistic, result, &found, error);
+        self->cell[i] = cell_of(&self->over, i, &found);
+    }
+    *count = (size_t)cells;
+    return status;
+}
+
+ld_status ld_study_data_pool(ld_study_data *self, const ld_study_over *question,
+                             const ld_study_cell **cell, size_t *count, ld_error *error)
+{
+    const study_data *data = &self->data;
+    const char *first = data->swept_count > 0 ? data->swept[0] : NULL;
+    over_statistic statistic;
+    const study_column *result;
+    *cell = NULL;
+    *count = 0;
+    over_close(&self->over);
+    ld_status status = over_statistic_read(question->statistic, &statistic, error);
+    if (!status)
+        status = over_open(question->over ? question->over : first, question->against, data,
+                           &self->over, error);
+    if (!status)
+        status = find_result(self, question, &statistic, &result, error);
+    if (!status)
+        status = fill_cells(self, &statistic, result, count, error);
+    *cell = status ? NULL : self->cell;
+    return status;
 }
