@@ -1,9 +1,15 @@
-"""The predictions of docs/validation.md: nominal launches are those of the committed table."""
+"""The predictions of docs/validation.md: nominal launches are those of the committed table; a log made of a launch
+gives that launch's quantities back."""
 import csv
 import importlib.machinery
 import importlib.util
 import os
+import struct
+import tempfile
 import unittest
+
+import launchdyn as ld
+import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
@@ -34,6 +40,48 @@ class Predictions(unittest.TestCase):
                 self.assertLess(float(row["low"]), float(row["median"]))
                 self.assertLess(float(row["median"]), float(row["high"]))
         print(f"largest difference: {worst:.1e}")
+
+    def test_measured_verdicts_follow_from_the_tables(self):
+        validation = script()
+        predicted = validation.read_table()
+        with open(validation.MEASURED, newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                low, _, high = predicted[row["launch"], row["quantity"]]
+                value, u = float(row["measured"]), float(row["uncertainty"])
+                inside = low <= value - u and value + u <= high
+                outside = value + u < low or value - u > high
+                said = "inside" if inside else "outside" if outside else "cannot tell"
+                # rounded numbers may sit on an edge
+                near = min(abs(value - u - low), abs(value + u - high)) < 0.01 * u
+                self.assertTrue(near or said == row["against the band"], row)
+
+    def test_a_log_of_a_launch_gives_it_back(self):
+        """The format of psas, 819.2 Hz, gravity, 0.3 m/s2 of bias, rates of 0.1, 0.2 and 0 rad/s on a bias."""
+        validation = script()
+        scenario = ld.Scenario.read(validation.scenario_file("launch-12"), {"scatter": "none"})
+        travels = validation.stated_travel(scenario)
+        result = scenario.run()
+        wanted = validation.run_once(scenario, travels)
+        last = result["phase"] < 3
+        clock = np.arange(-3, 1, 1 / 819.2)
+        speed = np.interp(clock, result["t"][last], result["rocket.s_dot"][last])
+        axial = np.gradient(speed, clock)
+        axial[clock > result["t"][last][-1]] = 80
+        with tempfile.TemporaryDirectory() as folder:
+            validation.LOGS = folder
+            with open(validation.log_file("launch-12"), "wb") as file:
+                for t, a in zip(clock, axial):
+                    rates = np.degrees([0.1, 0.2, 0.0]) * (t > result["t"][last][-1]) + 0.5
+                    words = [0, *np.rint(rates / 0.05), np.rint((a + 9.80665 + 0.3) / 9.80665 / 3.33e-3), *[0] * 7]
+                    file.write(b"ADIS" + round((t + 100) * 1e9).to_bytes(6, "big") + (24).to_bytes(2, "big")
+                               + struct.pack(">12h", *map(int, words)))
+                    file.write(b"SEQN" + bytes(6) + (4).to_bytes(2, "big") + bytes(4))
+            values = validation.measure("launch-12")
+        for name in ("speed_front", "speed_rear", "time_front", "time_rear"):
+            self.assertLess(abs(values[name][0] / wanted[name] - 1), 3e-3, (name, values[name], wanted[name]))
+        self.assertLess(abs(values["peak"][0] - wanted["peak"]), 1.0)
+        self.assertLess(abs(values["roll"][0] - 0.1), 2e-3)
+        self.assertLess(abs(values["transverse"][0] - 0.2), 2e-3)
 
 
 if __name__ == "__main__":
