@@ -5,6 +5,7 @@
 
 #include "launchdyn/child.h"
 #include "launchdyn/environment.h"
+#include "launchdyn/fit.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/history.h"
 #include "launchdyn/loop.h"

@@ -55,6 +55,21 @@ static const command commands[] = {
          "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,
      .in_child = true},
+    {.name = "fit",
+     .arguments = "FILE DATA...",
+     .words = COMMAND_WORDS,
+     .summary = "Fit keys of a scenario to measured launches",
+     .about = "Finds the values of keys, between bounds, at which the scenario's launch has the "
+              "results that were measured: weighted least squares from several starts, with "
+              "covariance, 95 % profile-likelihood intervals and the combinations of keys that "
+              "the data do not tell. DATA are CSV files with a line a launch and columns by the "
+              "names of results, with units; NAME_u is the standard uncertainty of NAME. Ctrl-C "
+              "stops; the same command with the same --out continues.",
+     .examples = "launchdyn fit scenario.yaml launches.csv --over "
+                 "rocket.motor.thrust_scale=0.9..1.1 --out fit|Fit one key\n"
+                 "launchdyn run fit/fitted.yaml|Run the fitted scenario",
+     .run = command_fit,
+     .in_child = true},
     {.name = "check",
      .arguments = "FILE",
      .words = 1,

@@ -51,14 +51,18 @@ static bool read_integer(const char *text, int *value)
 static ld_status add_text(command_line *line, int argc, char ***texts, ld_error *error)
 {
     size_t count = 0;
-    if (!line->texts)
-        line->texts = calloc((size_t)argc, sizeof *line->texts);
-    if (!line->texts)
+    int list = 0;
+    if (!*texts) {
+        while (line->texts[list])
+            list++;
+        assert(list < MOST_TEXTS);
+        *texts = line->texts[list] = calloc((size_t)argc, sizeof **texts);
+    }
+    if (!*texts)
         return ld_fail(error, LD_ERR_MEMORY, "no memory");
-    while (line->texts[count])
+    while ((*texts)[count])
         count++;
-    line->texts[count] = optarg;
-    *texts = line->texts;
+    (*texts)[count] = optarg;
     return LD_OK;
 }
 
@@ -158,8 +162,10 @@ ld_status options_read(command_line *line, int argc, char **argv, const command_
 
 void options_end(command_line *line)
 {
-    free(line->texts);
-    line->texts = NULL;
+    for (int i = 0; i < MOST_TEXTS; i++) {
+        free(line->texts[i]);
+        line->texts[i] = NULL;
+    }
 }
 
 // ---- help

@@ -10,7 +10,7 @@
 typedef enum option_kind {
     OPTION_FLAG,    // an int, which becomes 1
     OPTION_TEXT,    // a char *
-    OPTION_TEXTS,   // a char **, one more each time it is given, and then NULL
+    OPTION_TEXTS,   // a char **, NULL at first: one more each time it is given, and then NULL
     OPTION_INTEGER, // an int
     OPTION_HELP,    // nothing: what is asked for is help
     // a double in this unit, given with a unit or without
@@ -29,14 +29,14 @@ typedef struct command_option {
     const char *help, *argument; // argument NULL: it has none
 } command_option;
 
-enum { MOST_OPTIONS = 24 }; // of a table
+enum { MOST_OPTIONS = 24, MOST_TEXTS = 3 }; // of a table; of kind OPTION_TEXTS
 
 // What stands on the command line beside the options.
 typedef struct command_line {
     const char *const *word;
     size_t count;
-    bool help;    // it was asked for: what stands after that was not read
-    char **texts; // of OPTION_TEXTS
+    bool help;                // it was asked for: what stands after that was not read
+    char **texts[MOST_TEXTS]; // of OPTION_TEXTS
 } command_line;
 
 // Reads the words after the first one: options into their values, the others in their order into

@@ -96,6 +96,23 @@ void progress_samples(void *self, const ld_study_counts *counts)
     fflush(stderr);
 }
 
+// "start 2 of 4, 134 launches, 83.1 /s, chi2 12.3".
+void progress_launches(void *self, const ld_fit_counts *counts)
+{
+    run_progress *progress = self;
+    double time = now();
+    char chi2[48] = "";
+    if (!progress->shown || time - progress->latest < 0.2)
+        return;
+    progress->latest = time;
+    progress->drawn = true;
+    if (counts->chi2 == counts->chi2)
+        snprintf(chi2, sizeof chi2, ", chi2 %.4g", counts->chi2);
+    fprintf(stderr, "\r%.60s, %lld launches, %.3g /s%s     ", counts->stage,
+            (long long)counts->launches, (double)counts->launches / (time - progress->start), chi2);
+    fflush(stderr);
+}
+
 void progress_end(run_progress *progress)
 {
     if (progress->drawn)

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "launchdyn/fit.h"
 #include "launchdyn/study.h"
 
 typedef struct run_progress {
@@ -22,6 +23,8 @@ bool progress_share(void *self, double share);
 // The same for ld_study_options: how many samples are done; whether to continue.
 void progress_samples(void *self, const ld_study_counts *counts);
 bool progress_resume(void *self);
+// For ld_fit_options: how many launches are done.
+void progress_launches(void *self, const ld_fit_counts *counts);
 
 // Takes the line away.
 void progress_end(run_progress *progress);

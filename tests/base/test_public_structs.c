@@ -3,6 +3,7 @@
 #include "support/check.h"
 
 #include "launchdyn/environment.h"
+#include "launchdyn/fit.h"
 #include "launchdyn/history.h"
 #include "launchdyn/loop.h"
 #include "launchdyn/model.h"
@@ -27,6 +28,7 @@
     _Static_assert(sizeof(void *) != 8 || sizeof(type) == (bytes), #type " has another size")
 
 // Asked for by the caller: may grow into what is reserved.
+SIZE(ld_fit_options, 80);
 SIZE(ld_picture, 80);
 SIZE(ld_response_wish, 96);
 SIZE(ld_watch, 16);
@@ -73,6 +75,8 @@ SIZE(ld_pole, 80);
 SIZE(ld_report, 2072);
 SIZE(ld_section, 96);
 SIZE(ld_stretch, 24);
+SIZE(ld_fit_counts, 24);
+SIZE(ld_fit_key, 40);
 SIZE(ld_study_counts, 48);
 SIZE(ld_wind_section, 40);
 SIZE(ld_mstmm_assembly, 40);

@@ -100,6 +100,26 @@ static void test_binomial(void **state)
     assert_true(binomial_cumulative(-1, 5, 0.5) == 0 && binomial_cumulative(5, 5, 0.5) == 1);
 }
 
+static void test_chi_square(void **state)
+{
+    (void)state;
+    double worst = 0, fisher = 0;
+    for (double x = 0.01; x < 200; x *= 1.17) {
+        double poisson = 0, term = exp(-x / 2);
+        for (int k = 0; k < 50; term *= x / 2 / ++k)
+            poisson += term;
+        worst = fmax(worst, relative(chi_square_beyond(x, 1), 2 * normal_cumulative(-sqrt(x))));
+        worst = fmax(worst, relative(chi_square_beyond(x, 2), exp(-x / 2)));
+        worst = fmax(worst, relative(chi_square_beyond(x, 100), poisson));
+        fisher = fmax(fisher, relative(fisher_beyond(x, 1, 7), student_beyond(sqrt(x), 7)));
+        fisher = fmax(fisher, relative(fisher_beyond(x, 2, 9), pow(1 + 2 * x / 9, -4.5)));
+    }
+    CHECK_BELOW("chi-square of 1, 2 and 100 degrees of freedom", worst, 1e-12);
+    CHECK_BELOW("Fisher's F of 1 and 2 over 7 and 9", fisher, 1e-12);
+    assert_true(chi_square_beyond(0, 3) == 1 && chi_square_beyond(INFINITY, 3) == 0);
+    assert_true(isnan(chi_square_beyond(NAN, 3)) && isnan(chi_square_beyond(1, INFINITY)));
+}
+
 // At once: the fraction has no last term for them.
 static void test_no_numbers(void **state)
 {
@@ -118,6 +138,7 @@ int main(void)
         cmocka_unit_test(test_normal_quantile_rises),
         cmocka_unit_test(test_student_quantile),
         cmocka_unit_test(test_binomial),
+        cmocka_unit_test(test_chi_square),
         cmocka_unit_test(test_no_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

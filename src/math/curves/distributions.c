@@ -172,6 +172,52 @@ double student_quantile(double p, double freedom)
     return p < 0.5 ? -high : high;
 }
 
+// The series of the lower incomplete gamma function, over x^a e^-x/Gamma(a + 1).
+static double gamma_series(double a, double x)
+{
+    double term = 1, sum = 1;
+    for (int k = 1; k <= 10000 && term > 1e-17 * sum; k++) {
+        term *= x / (a + k);
+        sum += term;
+    }
+    return sum;
+}
+
+// The continued fraction of the upper one, over x^a e^-x/Gamma(a) (Lentz).
+static double gamma_fraction(double a, double x)
+{
+    const double tiny = 1e-300;
+    double b = x + 1 - a, c = 1 / tiny, d = 1 / b, h = d;
+    for (int k = 1; k <= 10000; k++) {
+        double step = -k * (k - a);
+        b += 2;
+        d = 1 / (fabs(step * d + b) < tiny ? tiny : step * d + b);
+        c = b + step / c;
+        c = fabs(c) < tiny ? tiny : c;
+        h *= c * d;
+        if (fabs(c * d - 1) < 1e-16)
+            break;
+    }
+    return h;
+}
+
+double chi_square_beyond(double x, double freedom)
+{
+    if (isnan(x) || !isfinite(freedom))
+        return NAN;
+    if (x <= 0 || isinf(x))
+        return x <= 0;
+    double a = freedom / 2, half = x / 2;
+    double front = exp(a * log(half) - half - log_gamma(a));
+    return half < a + 1 ? 1 - front * gamma_series(a, half) / a : front * gamma_fraction(a, half);
+}
+
+double fisher_beyond(double x, double numerator_freedom, double denominator_freedom)
+{
+    double part = denominator_freedom / (denominator_freedom + numerator_freedom * fmax(x, 0));
+    return beta_cumulative(denominator_freedom / 2, numerator_freedom / 2, part);
+}
+
 double binomial_cumulative(long k, long n, double p)
 {
     if (k < 0)

@@ -14,6 +14,10 @@ double beta_cumulative(double a, double b, double x);
 double student_quantile(double p, double freedom);
 // P(|T| > |t|) of Student's t.
 double student_beyond(double t, double freedom);
+// P(X > x) of chi-square with `freedom` > 0 degrees of freedom.
+double chi_square_beyond(double x, double freedom);
+// P(F > x) of Fisher's F.
+double fisher_beyond(double x, double numerator_freedom, double denominator_freedom);
 // Binomial distribution function: P(X <= k) of n draws with probability p.
 double binomial_cumulative(long k, long n, double p);
 

@@ -21,7 +21,7 @@ typedef struct launch_row {
 
 typedef struct launch_reader {
     const char *file;
-    const study_data *data;
+    const measured_names *names;
     measured *launches;
     text_lines at;
     int columns, salvo;            // columns of the header, and the one of salvos, or NO_RESULT
@@ -74,11 +74,14 @@ static ld_status read_unit(const launch_reader *self, int field, measured_result
     return refuse(self, field, result->name, text);
 }
 
-static const study_column *find_result(const study_data *data, const char *name,
-                                       const char **nearest)
+static const char *unit_of_result(const void *data, const char *name, char now[MEASURED_NAME],
+                                  char near[MEASURED_NAME])
 {
-    const study_column *column = study_data_find(data, name, nearest);
-    return column && !column->factor ? column : NULL;
+    const char *nearest = NULL;
+    const study_column *column = study_data_find(data, name, &nearest);
+    snprintf(now, MEASURED_NAME, "%s", column ? column->name : "");
+    snprintf(near, MEASURED_NAME, "%s", nearest ? nearest : "");
+    return column && !column->factor ? column->unit : NULL;
 }
 
 // A column of the header: "name [unit]" or "salvo".
@@ -86,8 +89,8 @@ static ld_status read_head(launch_reader *self, int field)
 {
     measured *launches = self->launches;
     measured_result *result = &launches->result[launches->results];
-    const char *text = self->at.field[field], *nearest = NULL;
-    char message[256], quoted[64];
+    const char *text = self->at.field[field];
+    char message[256], quoted[64], now[MEASURED_NAME], near[MEASURED_NAME];
     int end = 0;
     self->result[field] = NO_RESULT;
     if (strcmp(text, "salvo") == 0 && self->salvo == NO_RESULT) {
@@ -98,22 +101,22 @@ static ld_status read_head(launch_reader *self, int field)
     if (!result->name[0] || text[end])
         return refuse(self, field, "",
                       "expected a result with its unit, such as \"t_front [ms]\", or \"salvo\"");
-    const study_column *column = find_result(self->data, result->name, &nearest);
-    if (!column) {
-        snprintf(message, sizeof message, "the study has no result %s%s%s%s",
-                 reader_quote(result->name, quoted), nearest ? ", did you mean \"" : "",
-                 nearest ? nearest : "", nearest ? "\"?" : "");
+    const char *unit = self->names->unit_of(self->names->self, result->name, now, near);
+    if (!unit) {
+        snprintf(message, sizeof message, "%s %s%s%s%s", self->names->none,
+                 reader_quote(result->name, quoted), near[0] ? ", did you mean \"" : "", near,
+                 near[0] ? "\"?" : "");
         return refuse(self, field, "", message);
     }
-    if (strcmp(column->name, result->name) != 0) {
+    if (strcmp(now, result->name) != 0) {
         memcpy(result->former, result->name, sizeof result->former);
-        snprintf(result->name, sizeof result->name, "%s", column->name);
+        memcpy(result->name, now, sizeof result->name);
     }
     for (int i = 0; i < launches->results; i++)
         if (strcmp(launches->result[i].name, result->name) == 0)
             return refuse(self, field, result->name, "is given in an earlier column, too");
     self->result[field] = launches->results++;
-    return read_unit(self, field, result, column->unit);
+    return read_unit(self, field, result, unit);
 }
 
 static ld_status read_header(launch_reader *self)
@@ -209,13 +212,15 @@ static ld_status take_result(launch_reader *self, int index)
     measured_result *result = &launches->result[index];
     result->value = calloc(launches->count, sizeof *result->value);
     result->group = calloc(launches->count, sizeof *result->group);
-    if (!result->value || !result->group)
+    result->launch = calloc(launches->count, sizeof *result->launch);
+    if (!result->value || !result->group || !result->launch)
         return no_memory(self->error);
     for (size_t i = 0; i < launches->count; i++) {
         const launch_row *row = self->row[i];
         if (isnan(row->value[index]))
             continue;
         result->group[result->count] = row->salvo;
+        result->launch[result->count] = row->number;
         result->value[result->count++] = row->value[index];
     }
     if (result->count > 0)
@@ -247,6 +252,13 @@ static ld_status read_launches(launch_reader *self)
 ld_status measured_read(const char *file, const study_data *data, measured *launches,
                         ld_error *error)
 {
+    const measured_names names = {"the study has no result", unit_of_result, data};
+    return measured_read_named(file, &names, launches, error);
+}
+
+ld_status measured_read_named(const char *file, const measured_names *names, measured *launches,
+                              ld_error *error)
+{
     static const char mark[] = "\xef\xbb\xbf"; // of UTF-8, as spreadsheets write it
     char *text;
     size_t length;
@@ -257,7 +269,7 @@ ld_status measured_read(const char *file, const study_data *data, measured *laun
         return ld_fail(error, status, "%.300s %s", file, why.text);
     size_t from = strncmp(text, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
     launch_reader reader = {.file = file,
-                            .data = data,
+                            .names = names,
                             .launches = launches,
                             .at = text_lines_begin(text + from, length - from),
                             .salvo = NO_RESULT,
@@ -320,6 +332,7 @@ void measured_free(measured *launches)
     for (int i = 0; i < launches->results; i++) {
         free(launches->result[i].value);
         free(launches->result[i].group);
+        free(launches->result[i].launch);
     }
     free(launches->result);
     *launches = (measured){0};

@@ -16,6 +16,7 @@ typedef struct measured_result {
     size_t count;               // launches that have a value
     double *value;              // [count] SI
     int64_t *group;             // [count] rises: the launch's salvo, or the launch
+    size_t *launch;             // [count] from 0, as the file has them
 } measured_result;
 
 typedef struct measured {
@@ -23,6 +24,20 @@ typedef struct measured {
     int results;
     measured_result *result; // [results] in the order of the file's columns
 } measured;
+
+// What names of columns stand for.
+typedef struct measured_names {
+    const char *none; // what is said of another name: "the study has no result"
+    // The SI unit of what is called `name`, and the name that it has now; NULL: there is none, but
+    // `near`, or "", may be meant.
+    const char *(*unit_of)(const void *self, const char *name, char now[MEASURED_NAME],
+                           char near[MEASURED_NAME]);
+    const void *self;
+} measured_names;
+
+// Reads a file whose header names such columns, with units; the rest as measured_read().
+ld_status measured_read_named(const char *file, const measured_names *names, measured *launches,
+                              ld_error *error);
 
 // Reads a file whose header names results of the study, "t_front [ms], exit_speed [m/s]", and may
 // name a column `salvo`; an empty field is a missing value (docs/study.md).

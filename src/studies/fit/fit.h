@@ -1,0 +1,58 @@
+// A fit: keys, data, and what was found.
+#ifndef LD_STUDIES_FIT_H
+#define LD_STUDIES_FIT_H
+
+#include "launchdyn/fit.h"
+#include "studies/fit/fit_data.h"
+#include "studies/fit/minimum.h"
+
+typedef struct fit_key {
+    field_place place;
+    const char *unit;    // SI
+    char shown_unit[32]; // as its bounds were given, and the factor from that to SI
+    double shown_factor;
+    double low, width;      // SI
+    double mean, deviation; // SI; deviation infinite: no prior
+} fit_key;
+
+// What a fit says of a key, in SI.
+typedef struct fit_estimate {
+    double value, deviation; // NaN: at its bound, or untold
+    double low, high;        // of the 95 % interval
+    bool open[2];            // that end is the bound
+    bool at_bound;
+} fit_estimate;
+
+// How far simulated means are from measured ones, and whether noise alone would be as far.
+typedef struct fit_quality {
+    double chi2;   // of data and priors
+    int freedom;   // results and priors beyond the keys
+    double chance; // of a chi2 this large, of noise alone; NaN without freedom
+    double misfit; // of launches alike whose uncertainties are given
+    size_t misfit_freedom;
+    double misfit_chance;
+} fit_quality;
+
+struct ld_fit {
+    const ld_model *model;
+    int keys;
+    fit_key key[FIT_MOST_KEYS];
+    fit_data data;
+    fit_minimum minimum;
+    int64_t simulated;                  // launches
+    double inflation, inflated_freedom; // of the covariance, of Student's t; infinite: normal
+    fit_estimate estimate[FIT_MOST_KEYS];
+    fit_quality quality;
+    double *fitted; // [residuals] simulated results at the best fit, SI
+    bool done;
+};
+
+static inline double fit_key_value(const fit_key *key, double p)
+{
+    return key->low + p * key->width;
+}
+
+// Writes fit.json and fitted.yaml into a folder that is there.
+ld_status fit_write(const ld_fit *fit, const char *folder, ld_error *error);
+
+#endif
