@@ -4,7 +4,7 @@ import { CylinderGeometry, Group, Mesh, MeshBasicMaterial, SphereGeometry } from
 import { carrierOf } from "./carriers.js";
 import { COLOURS, edge, paint, wheel } from "./launcher.js";
 import { CARRIER, frameOf, nearestOf, outlineOf, pointIn } from "./mechanism.js";
-import { angular, box, cylinder, material, place, point, Sleeve } from "./shapes.js";
+import { angular, box, cylinder, faceted, material, place, point, Sleeve } from "./shapes.js";
 import { add, apply, aboutZ, cross, multiply, scaled, subtract, turnedBack, unit } from "./vector.js";
 
 const JOINT = 0x8a4fc4, TONES = [0x8f989f, 0xa9b0a2, 0x9aa5b5, 0xb3a99b, 0x7f8a91, 0xbcc3c8];
@@ -62,11 +62,13 @@ export class Linkage {
 
   buildBodies() {
     this.bodies = this.mechanism.bodies.map((body, i) => {
-      const group = new Group(), surface = (body.shape === "ellipsoid" ? material : angular)(TONES[i % TONES.length], { transparent: true });
+      const group = new Group(), surface = body.shape === "mesh" ? angular(0xffffff, { transparent: true, vertexColors: true })
+        : (body.shape === "ellipsoid" ? material : angular)(TONES[i % TONES.length], { transparent: true });
       this.surfaces.push(surface);
       if (body.shape) {
         const made = new Group(), half = scaled(0.5, body.size);
         if (body.shape === "box") made.add(box(scaled(-1, half), half, surface, edge));
+        else if (body.shape === "mesh") made.add(faceted(body.triangles, surface, edge));
         else if (body.shape === "cylinder") made.add(round(body.size, surface));
         else made.add(ellipsoid(half, surface));
         place(made, body.at, body.A);

@@ -6,7 +6,7 @@ import { add, apply, multiply, pose, subtract, turnedBack } from "./vector.js";
 export const CARRIER = -2;
 const IDENTITY = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 const KINDS = ["fixed", "revolute", "prismatic", "cylindrical", "universal", "spherical", "planar", "free"];
-const SHAPES = [null, "box", "cylinder", "ellipsoid"];
+const SHAPES = [null, "box", "cylinder", "ellipsoid", "mesh"];
 
 // `rows`: an array of the geometry by its name, as a list of rows; `columns`: names of the launch's columns. Null where the
 // base is of another kind.
@@ -15,7 +15,7 @@ export function mechanismOf(rows, columns) {
     .map((name) => name.slice(head.length, name.length - tail.length));
   if (rows("joint.kind").length === 0) return null;
   const bodies = named("body.", ".yaw").map((name, i) => ({ name, shape: SHAPES[rows("body.shape")[i][0]], at: rows("body.at")[i],
-    A: pose(...rows("body.attitude")[i]), size: rows("body.size")[i] }));
+    A: pose(...rows("body.attitude")[i]), size: rows("body.size")[i], triangles: trianglesOf(rows, i) }));
   const beams = named("beam.", ".yaw").map((name, i) => beamOf(rows, name, i + 1));
   const joints = rows("joint.kind").map(([kind], i) => ({ kind: KINDS[kind], parent: rows("joint.link")[i][0], body: rows("joint.link")[i][1],
     at: rows("joint.at")[i], A: pose(...rows("joint.attitude")[i]), axis: rows("joint.axis")[i] }));
@@ -27,6 +27,12 @@ export function mechanismOf(rows, columns) {
     feet: rows("foot.at").map((at, i) => ({ on: rows("foot.on")[i][0], at, height: rows("foot.height")[i][0] })),
     wheels: single("wheel.on") === undefined ? [] : named("wheel.", ".travel"), wheelsOn: single("wheel.on"), wheelRadius: single("wheel.radius"),
   };
+}
+
+// Of a body's mesh, in the axes of its shape: corners, nine numbers each, and colours.
+function trianglesOf(rows, body) {
+  const own = rows("body.mesh").filter(([number]) => number === body);
+  return { corners: own.map((row) => row.slice(1, 10)), colours: own.map((row) => row.slice(10)) };
 }
 
 function beamOf(rows, name, number) {
@@ -67,11 +73,15 @@ export function nearestOf({ shape, at, A, size }, point) {
   return add(at, apply(A, inside));
 }
 
-// Corners of a body's shape in its axes, of a cylinder those of the box about it.
+// Corners of a body's shape in its axes, of a cylinder or a mesh those of the box about it.
 export function cornersOf({ shape, at, A, size }) {
   const ends = [-0.5, 0.5];
   return shape ? ends.flatMap((x) => ends.flatMap((y) => ends.map((z) => add(at, apply(A, [x * size[0], y * size[1], z * size[2]]))))) : [];
 }
+
+// The triangles of a body's mesh in its axes.
+export const meshOf = ({ at, A, triangles }) =>
+  triangles.corners.map((row) => [0, 3, 6].map((k) => add(at, apply(A, row.slice(k, k + 3)))));
 
 // Points in I about all of it.
 export function outlineOf(mechanism, places) {

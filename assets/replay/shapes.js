@@ -164,6 +164,13 @@ export function loft(lists, surface, edge) {
   return edged(flat(faces), surface, edge);
 }
 
+// Triangles with a colour each.
+export function faceted({ corners, colours }, surface, edge) {
+  const geometry = flat(corners);
+  geometry.setAttribute("color", new BufferAttribute(new Float32Array(colours.flatMap((rgb) => [...rgb, ...rgb, ...rgb])), 3));
+  return edged(geometry, surface, edge);
+}
+
 // Triangles by their corners, each with its own direction.
 function flat(corners) {
   const geometry = new BufferGeometry();

@@ -2,7 +2,7 @@
 // before ignition, and how the whole stands on its base. What the results do not say is drawn dashed.
 import { hingesOf, rowsOf } from "../replay/geometry.js";
 import { guideOf } from "../replay/guide.js";
-import { cornersOf, frameOf, mechanismOf, nearestOf, outlineOf as pointsOf, placesOf } from "../replay/mechanism.js";
+import { cornersOf, frameOf, mechanismOf, meshOf, nearestOf, outlineOf as pointsOf, placesOf } from "../replay/mechanism.js";
 import { finCorners, outlineOf } from "../replay/outline.js";
 import { add, apply, pose } from "../replay/vector.js";
 import { svg } from "./chart.js";
@@ -207,7 +207,8 @@ function mechanismSide(it) {
   });
   return {
     tubes, angle: it.pitch, pivot: tubes[it.tube - 1]?.[0] ?? tubes[0][0], ties,
-    bodies: mechanism.bodies.map((body, i) => hull(cornersOf(body).map((corner) => at(i, corner)))).filter((corners) => corners.length > 2),
+    bodies: mechanism.bodies.flatMap((body, i) => (body.shape === "mesh" ? [] : [hull(cornersOf(body).map((corner) => at(i, corner)))])).filter((corners) => corners.length > 2),
+    meshes: mechanism.bodies.flatMap((body, i) => (body.shape === "mesh" ? [meshOf(body).map((corners) => corners.map((corner) => at(i, corner)))] : [])),
     beams: mechanism.beams.map(({ shapes }, i) => shapes.stations.map((x) => at(mechanism.bodies.length + i, [x, 0, 0]))),
     struts: mechanism.struts.map(({ ends, at: points }) => ends.map((thing, i) => at(thing, points[i]))),
     joints: mechanism.joints.filter(({ kind }) => kind !== "free" && kind !== "fixed").map(({ parent, at: point }) => at(parent, point)),
@@ -215,6 +216,13 @@ function mechanismSide(it) {
     outline: [...tubes.flat(), ...pointsOf(mechanism, places).map(flat)],
     stands: mechanism.wheels.length > 0 || mechanism.feet.length > 0 || mechanism.carried || mechanism.joints.some(({ parent, kind }) => parent === -1 && kind !== "free"),
   };
+}
+
+// The area that triangles cover: its outline, then a face over the outline's inner half. All are turned one way: none cancels another.
+function silhouette(triangles) {
+  const facing = triangles.map(([a, b, c]) => ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) < 0 ? [a, c, b] : [a, b, c]));
+  const d = facing.map((corners) => `M${corners.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}Z`).join("");
+  return ["contour", "back", "part face"].map((kind) => svg("path", { d, class: kind }));
 }
 
 // Convex hull of points in a plane, in order.
@@ -266,6 +274,7 @@ function mechanismStanding(it, left, width, top, height) {
   const X = (x) => left + 10 + (width - 20 - scale * w) / 2 + scale * (x - x0), Y = (y) => top + height - foot - 4 - scale * (y - y0);
   const on = ([x, y]) => [X(x), Y(y)], joined = ([a, b], kind) => line(...on(a), ...on(b), kind), out = [];
   if (side.stands) out.push(line(left, Y(y0) + 1, left + width, Y(y0) + 1, "ground"));
+  out.push(...side.meshes.flatMap((triangles) => silhouette(triangles.map((corners) => corners.map(on)))));
   out.push(...side.bodies.map((corners) => shape(corners.map(on), "part")), ...side.ties.map((ends) => joined(ends, "thin")));
   for (const points of side.beams) out.push(svg("polyline", { points: points.map((p) => on(p).map((v) => v.toFixed(1)).join(",")).join(" "), class: "mast" }));
   out.push(...side.struts.map((ends) => joined(ends, "strut")), ...side.wheels.map((r) => circle(...on(r), scale * side.wheelRadius, "wheel")));

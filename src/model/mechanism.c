@@ -47,6 +47,15 @@ bool mechanism_has_carrier(const ld_mechanism *self)
     return has;
 }
 
+size_t mechanism_triangles(const ld_mechanism *self)
+{
+    size_t count = 0;
+    for (int i = 0; i < self->body_count; i++)
+        if (self->body[i].appearance.shape == LD_SHAPE_MESH)
+            count += self->body[i].appearance.mesh.rows;
+    return count;
+}
+
 int mechanism_joint(const ld_mechanism *self, const char *name)
 {
     for (int i = 0; i < self->joint_count; i++)

@@ -7,9 +7,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/base64.h"
+#include "base/memory_stream.h"
 #include "base/text_file.h"
 #include "model/fields/digest.h"
 #include "model/fields/source.h"
+#include "scenario/foreign_tables.h"
 #include "scenario/scenario_reader.h"
 
 // The name of a file beside others in a folder, in the pool.
@@ -30,6 +33,27 @@ static char *folder_of(scenario_reader *reader, const char *name)
     return pool_text(reader, name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
 }
 
+// Puts base64 in place of a mesh's bytes: what a run keeps are texts.
+static ld_status keep_as_text(char **text, size_t *length, ld_error *error)
+{
+    char *kept = NULL;
+    size_t bytes = 0;
+    if (*length < strlen(MESH_FILE_HEAD) ||
+        memcmp(*text, MESH_FILE_HEAD, strlen(MESH_FILE_HEAD)) != 0)
+        return LD_OK;
+    FILE *stream = memory_stream(&kept, &bytes);
+    if (stream)
+        base64_write(stream, *text, *length);
+    bool fine = stream && fclose(stream) == 0;
+    free(*text);
+    *text = kept;
+    *length = bytes;
+    if (fine)
+        return LD_OK;
+    free(kept);
+    return ld_fail(error, LD_ERR_MEMORY, "cannot be read: no memory");
+}
+
 // Reads a file into the source, as `within`; NULL after a message.
 static const ld_source_file *read_file(scenario_reader *reader, text_place place, const char *path,
                                        const char *file_name, const char *within)
@@ -42,6 +66,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
         return NULL;
     }
     ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
+    if (!status)
+        status = keep_as_text(&text, &length, &error);
     reader->no_memory |= status == LD_ERR_MEMORY;
     reader->no_file |= status == LD_ERR_FILE;
     if (status != LD_OK) {
@@ -65,12 +91,12 @@ text_source *reader_open(scenario_reader *reader, text_place place, const char *
         file = read_file(reader, place, path, file_name, within);
     text_source *opened = file ? pool_take(reader, sizeof *opened) : NULL;
     if (opened)
-        *opened = (text_source){file_name,
-                                file->text,
-                                file->length,
-                                folder_of(reader, file_name),
-                                1,
-                                folder_of(reader, within)};
+        *opened = (text_source){.name = file_name,
+                                .text = file->text,
+                                .length = file->length,
+                                .folder = folder_of(reader, file_name),
+                                .first_line = 1,
+                                .within = folder_of(reader, within)};
     return reader->no_memory ? NULL : opened;
 }
 

@@ -1,4 +1,4 @@
-#include "scenario/rocksim_file.h"
+#include "scenario/foreign_tables.h"
 
 #include <limits.h>
 #include <math.h>

@@ -272,7 +272,12 @@ static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messag
     scenario_reader reader = {
         .messages = messages, .source = source, .complaint = wanted->complaint};
     const ld_source_file *first = source->file[0];
-    text_source root = {source->name, first->text, first->length, source->folder, 1, ""};
+    text_source root = {.name = source->name,
+                        .text = first->text,
+                        .length = first->length,
+                        .folder = source->folder,
+                        .first_line = 1,
+                        .within = ""};
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
     *messages = (ld_messages){0};
     if (!plain)

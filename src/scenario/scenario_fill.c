@@ -330,6 +330,7 @@ static bool read_table_file(scenario_reader *reader, const field_row *f, const t
     bool sounding = false;
     bool known = (f->table->sources & TABLE_CSV && ends_with(value->text, ".csv")) ||
                  (f->table->sources & TABLE_ENGINE && ends_with(value->text, ".eng")) ||
+                 (f->table->sources & TABLE_MESH && ends_with(value->text, ".glb")) ||
                  (f->table->sources & TABLE_ROCKSIM && ends_with(value->text, ".rse")) ||
                  (f->table->sources & TABLE_SOUNDING && ends_with(value->text, ".txt"));
     if (!known)

@@ -32,6 +32,7 @@ typedef struct text_source {
     const char *folder; // where files that it names are searched
     int first_line;     // number of its first line: 1, of an override its own number
     const char *within; // folder as seen from the scenario's
+    bool json;          // its notation; else YAML
 } text_source;
 
 typedef struct text_place {
@@ -205,8 +206,9 @@ static inline written_value written_in(const struct field_row *field, const tree
 bool quantity_read(scenario_reader *reader, const written_value *given, double *values, int count);
 
 // Reads a table from the file that the text names (beside the file that names it), a RASP .eng
-// file, a RockSim .rse file, a CSV file or a sounding's text by the ending of its name; `sounding`:
-// whether it was one. Messages about what it holds point into it. False after a message.
+// file, a RockSim .rse file, a CSV file, a mesh or a sounding's text by the ending of its name;
+// `sounding`: whether it was one. Messages about what it holds point into it. False after a
+// message.
 bool table_file_read(scenario_reader *reader, const written_value *given, ld_table *table,
                      double *clock, bool *sounding);
 // The file that the text at `place` names, read once in a run and kept in reader->source; NULL

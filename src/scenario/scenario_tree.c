@@ -198,6 +198,7 @@ static text_place place_of_problem(const builder *b)
 static void refuse_yaml(builder *b)
 {
     const yaml_parser_t *p = &b->parser;
+    const char *notation = b->source->json ? "JSON" : "YAML";
     if (b->failed)
         return;
     b->failed = true;
@@ -208,11 +209,11 @@ static void refuse_yaml(builder *b)
                       p->problem);
     else if (p->context && p->context_mark.line != p->problem_mark.line)
         reader_refuse(b->reader, place_of_problem(b), "",
-                      "not valid YAML: %s, %s that begins in line %d", p->problem, p->context,
-                      place_of(b, p->context_mark).line);
+                      "not valid %s: %s, %s that begins in line %d", notation, p->problem,
+                      p->context, place_of(b, p->context_mark).line);
     else
-        reader_refuse(b->reader, place_of_problem(b), "", "not valid YAML: %s%s%s", p->problem,
-                      p->context ? ", " : "", p->context ? p->context : "");
+        reader_refuse(b->reader, place_of_problem(b), "", "not valid %s: %s%s%s", notation,
+                      p->problem, p->context ? ", " : "", p->context ? p->context : "");
 }
 
 // The next event into b->event (to be deleted); false after a failure.

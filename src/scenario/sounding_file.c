@@ -1,4 +1,4 @@
-#include "scenario/sounding_file.h"
+#include "scenario/foreign_tables.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,9 +5,8 @@
 
 #include "model/fields/field.h"
 #include "scenario/clock_text.h"
+#include "scenario/foreign_tables.h"
 #include "scenario/line_reader.h"
-#include "scenario/rocksim_file.h"
-#include "scenario/sounding_file.h"
 
 // ---- RASP .eng: comments, a header of seven fields, lines "time thrust" up to thrust 0
 
@@ -200,6 +199,8 @@ bool table_file_read(scenario_reader *reader, const written_value *given, ld_tab
         read_rasp(&lines, table);
     else if (strcmp(name + length - 4, ".rse") == 0)
         rocksim_read(&lines, format, table);
+    else if (strcmp(name + length - 4, ".glb") == 0)
+        mesh_read(&lines, table);
     else if (strcmp(name + length - 4, ".txt") == 0)
         sounding_read_text(&lines, format, table);
     else

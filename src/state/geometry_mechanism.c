@@ -47,23 +47,59 @@ static ld_appearance box_of_inertia(const ld_body *body)
     return box;
 }
 
+enum { MESH_ROW = 1 + LD_MESH_COLUMNS };
+static const double FINENESS = 1e-5; // [m] of a mesh's corners: a report writes them as text
+
+// Puts the triangles of body `number` there, in which place and size become those of the box about
+// them; returns the place behind them.
+static double *put_mesh(double *to, int number, ld_appearance *looks)
+{
+    v3 low = {INFINITY, INFINITY, INFINITY}, high = v3_scale(-1, low);
+    const double *from = looks->mesh.data;
+    for (size_t k = 0; k < 3 * looks->mesh.rows; k++) {
+        v3 r = v3_scale(looks->scale, v3_from(from + k / 3 * LD_MESH_COLUMNS + k % 3 * 3));
+        low = v3_make(fmin(low.x, r.x), fmin(low.y, r.y), fmin(low.z, r.z));
+        high = v3_make(fmax(high.x, r.x), fmax(high.y, r.y), fmax(high.z, r.z));
+    }
+    v3 middle = v3_scale(0.5, v3_add(low, high));
+    for (size_t k = 0; k < looks->mesh.rows; k++, from += 12) {
+        *to++ = number;
+        for (int i = 0; i < 9; i++)
+            *to++ = FINENESS * round((looks->scale * from[i] - (&middle.x)[i % 3]) / FINENESS);
+        put(&to, from + 9, 3);
+    }
+    m3 A = m3_mul(m3_mul(m3_rotation_y(looks->attitude[0]), m3_rotation_z(looks->attitude[1])),
+                  m3_rotation_x(looks->attitude[2]));
+    v3_store(looks->at, v3_add(v3_from(looks->at), m3_apply(A, middle)));
+    v3_store(looks->size, v3_sub(high, low));
+    return to;
+}
+
 static void add_bodies(geometry *all, const ld_mechanism *given)
 {
     size_t count = (size_t)given->body_count;
     static const double code[] = {
-        [LD_SHAPE_NONE] = 0, [LD_SHAPE_BOX] = 1, [LD_SHAPE_CYLINDER] = 2, [LD_SHAPE_ELLIPSOID] = 3};
+        [LD_SHAPE_NONE] = 0,      [LD_SHAPE_BOX] = 1,  [LD_SHAPE_CYLINDER] = 2,
+        [LD_SHAPE_ELLIPSOID] = 3, [LD_SHAPE_MESH] = 4,
+    };
     double *shape = geometry_add(
         all, "body.shape", "1", count, 1,
-        "what each body is drawn as: 0 nothing, 1 a box, 2 a cylinder, 3 an ellipsoid");
+        "what each body is drawn as: 0 nothing, 1 a box, 2 a cylinder, 3 an ellipsoid, 4 "
+        "a mesh");
     double *at = geometry_add(all, "body.at", "m", count, 3, "its centre, body axes");
     double *attitude = geometry_add(all, "body.attitude", "rad", count, 3,
                                     "yaw, pitch, roll of its axes against the body's");
     double *size = geometry_add(all, "body.size", "m", count, 3,
                                 "lengths along its axes; a cylinder's axis is x");
+    double *mesh = geometry_add(all, "body.mesh", "m", mechanism_triangles(given), MESH_ROW,
+                                "triangles: number of the body, x, y, z of three corners in the "
+                                "axes of its shape from its centre; red, green, blue [1]");
     for (int i = 0; i < given->body_count; i++) {
         ld_appearance looks = given->body[i].appearance;
         if (looks.shape == LD_SHAPE_INERTIA)
             looks = box_of_inertia(&given->body[i]);
+        else if (looks.shape == LD_SHAPE_MESH)
+            mesh = put_mesh(mesh, i, &looks);
         *shape++ = code[looks.shape];
         put(&at, looks.at, 3);
         put(&attitude, looks.attitude, 3);
@@ -161,6 +197,7 @@ size_t geometry_mechanism_room(const mechanism_system *self)
         return 0;
     for (int i = 0; i < self->given->beam_count; i++)
         room += geometry_shapes_room(mechanism_beam(self, i)) + 3 * LD_MAX_BEAM_SECTIONS;
+    room += MESH_ROW * mechanism_triangles(self->given);
     return room + 10 * LD_MAX_BODIES + 12 * LD_MAX_JOINTS + 9 * LD_MAX_STRUTS +
            4 * LD_MAX_BUSHINGS + 5 * LD_MAX_FEET + 2;
 }

@@ -40,6 +40,19 @@ const drawnBase = (page) => page.evaluate(() => {
   };
 });
 
+// Triangles, colours and corners, in I, of what a body is drawn as.
+const meshOf = (page, name) => page.evaluate((wanted) => {
+  const { base, motion, camera, anchor } = window.launchdyn.current.stage, point = camera.position.clone();
+  const own = motion.mechanism.bodies.findIndex((body) => body.name === wanted), found = [];
+  base.bodies[own].traverse((node) => { if (node.isMesh && node.geometry.attributes.color) found.push(node); });
+  const { position, color } = found[0].geometry.attributes, points = [], colours = new Set();
+  for (let i = 0; i < position.count; i++) {
+    points.push(point.fromBufferAttribute(position, i).applyMatrix4(found[0].matrixWorld).toArray().map((x, k) => x + anchor[k]));
+    colours.add([color.getX(i), color.getY(i), color.getZ(i)].join(" "));
+  }
+  return { triangles: position.count / 3, colours: [...colours], points };
+}, name);
+
 const apart = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
 // A point of a body in I.
 const pointOf = ({ r, axes }, p) => r.map((x, k) => x + axes[k] * p[0] + axes[4 + k] * p[1] + axes[8 + k] * p[2]);
@@ -72,7 +85,10 @@ async function checkErector(browser) {
   check("the joint's mark is there", eye.kind === "universal" && apart(eye.at, boom) < 1e-9, apart(eye.at, boom));
   check("the pivot is where the scenario says", apart(marks[1].at, [0, 1.6, 0]) < 1e-9, marks[1].at);
   check("every joint has its mark, the drawing too", marks.length === 5 && (await count(".joint")) === 4, marks.length);
-  check("the drawing has all bodies", (await count(".part")) === 4);
+  check("the drawing has all bodies, the boom as a mesh", (await count(".part")) === 4 && (await count(".face")) === 1);
+  const mesh = await meshOf(page, "boom"), corner = pointOf(body.boom, [2.3 + 2.6 + 0.035, 0.15 + 0.035, 0.2]);
+  check("the boom has its 432 triangles in two colours", mesh.triangles === 432 && mesh.colours.length === 2, mesh);
+  check("its truss reaches to where the file and `at` put it", mesh.points.some((r) => apart(r, corner) < 1e-4));
   check("it stands on the ground", low > -0.1 && low < 0.2, low);
   await close(page, "erector");
 }

@@ -22,6 +22,8 @@ enum {
     LD_MAX_LOADS = 8,
     LD_MAX_DRAGS = 8,
     LD_MAX_BEAM_SECTIONS = 8,
+    LD_MAX_TRIANGLES = 5000, ///< of all meshes
+    LD_MESH_COLUMNS = 12,    ///< three corners of a triangle, its colour
     LD_MAX_BEAM_COORDINATES = 2 * LD_MAX_BENDING_MODES + LD_MAX_TORSION_MODES + LD_MAX_AXIAL_MODES,
 };
 
@@ -32,13 +34,18 @@ typedef enum ld_body_shape {
     LD_SHAPE_CYLINDER,
     LD_SHAPE_ELLIPSOID,
     LD_SHAPE_NONE,
+    LD_SHAPE_MESH,
 } ld_body_shape;
 
 typedef struct ld_appearance {
     ld_body_shape shape;
-    double at[3];       ///< [m] centre, body axes
+    double at[3];       ///< [m] centre, of a mesh its origin, body axes
     double attitude[3]; ///< [rad] yaw, pitch, roll of its axes against the body's
     double size[3];     ///< [m] along x, y, z; a cylinder's axis is x
+    /// [m] triangles in axes of the shape, before `scale`: x, y, z of three corners; then red,
+    /// green, blue from 0 to 1, linear
+    ld_table mesh;
+    double scale;
 } ld_appearance;
 
 /// A rigid body.
@@ -230,5 +237,7 @@ bool mechanism_has_carrier(const ld_mechanism *self);
 /// Number of the body of that name, rigid ones first, then beams, or one of the above.
 int mechanism_body(const ld_mechanism *self, const char *name);
 int mechanism_joint(const ld_mechanism *self, const char *name);
+/// Triangles of all its meshes.
+size_t mechanism_triangles(const ld_mechanism *self);
 
 #endif

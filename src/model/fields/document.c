@@ -59,11 +59,9 @@ static void write_table(FILE *stream, const table_format *table)
         unsigned source;
         const char *text;
     } others[] = {
-        {TABLE_CONSTANT, "; one value"},
-        {TABLE_CSV, "; `.csv`"},
-        {TABLE_ENGINE, "; `.eng`"},
-        {TABLE_ROCKSIM, "; `.rse`"},
-        {TABLE_SOUNDING, "; sounding `.txt`"},
+        {TABLE_CONSTANT, "; one value"}, {TABLE_CSV, "; `.csv`"},
+        {TABLE_ENGINE, "; `.eng`"},      {TABLE_ROCKSIM, "; `.rse`"},
+        {TABLE_MESH, "; `.glb`"},        {TABLE_SOUNDING, "; sounding `.txt`"},
     };
     write_columns(stream, table);
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)

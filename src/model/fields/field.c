@@ -346,6 +346,7 @@ static void table_expectation(const table_format *table, char *text, size_t size
         {TABLE_CSV, " or the name of a .csv file"},
         {TABLE_ENGINE, " or the name of an .eng file"},
         {TABLE_ROCKSIM, " or that of an .rse file"},
+        {TABLE_MESH, " or the name of a .glb file"},
         {TABLE_SOUNDING, " or that of a sounding's .txt file"},
     };
     snprintf(text, size, "rows [");

@@ -58,6 +58,7 @@ enum table_source {
     TABLE_BARE = 8,      // the CSV file may do without a header: numbers in SI
     TABLE_SOUNDING = 16, // a sounding (scenario/sounding_file.c)
     TABLE_ROCKSIM = 32,  // a RockSim .rse file (scenario/rocksim_file.c)
+    TABLE_MESH = 256,    // a binary glTF 2 file (scenario/mesh_file.c)
 };
 
 // What else holds of a table, in the same word.

@@ -14,19 +14,48 @@
 
 // ---- bodies
 
-static const field_word shape_words[] = {
-    {"inertia", LD_SHAPE_INERTIA},     {"box", LD_SHAPE_BOX},   {"cylinder", LD_SHAPE_CYLINDER},
-    {"ellipsoid", LD_SHAPE_ELLIPSOID}, {"none", LD_SHAPE_NONE}, {NULL, 0}};
+static const field_word shape_words[] = {{"inertia", LD_SHAPE_INERTIA},
+                                         {"box", LD_SHAPE_BOX},
+                                         {"cylinder", LD_SHAPE_CYLINDER},
+                                         {"ellipsoid", LD_SHAPE_ELLIPSOID},
+                                         {"none", LD_SHAPE_NONE},
+                                         {"mesh", LD_SHAPE_MESH},
+                                         {NULL, 0}};
+#define CORNER(x, y, z)                                                                            \
+    {x, .unit = "m", ANY}, {y, .unit = "m", ANY},                                                  \
+    {                                                                                              \
+        z, .unit = "m", ANY                                                                        \
+    }
+static const field_row mesh_columns[] = {CORNER("x1", "y1", "z1"),
+                                         CORNER("x2", "y2", "z2"),
+                                         CORNER("x3", "y3", "z3"),
+                                         {"red", .unit = "", FROM_TO(0, 1)},
+                                         {"green", .unit = "", FROM_TO(0, 1)},
+                                         {"blue", .unit = "", FROM_TO(0, 1)}};
+static const table_format mesh_table = {TABLE_MESH, LD_MESH_COLUMNS, mesh_columns, NULL};
+#define SIZED                                                                                      \
+    (FORM(LD_SHAPE_INERTIA) | FORM(LD_SHAPE_BOX) | FORM(LD_SHAPE_CYLINDER) |                       \
+     FORM(LD_SHAPE_ELLIPSOID) | FORM(LD_SHAPE_NONE))
+#define MESH FORM(LD_SHAPE_MESH)
 static const field_row looks_fields[] = {
     {"shape", CHOICE(ld_appearance, shape, shape_words), DEFAULT(LD_SHAPE_INERTIA),
-     .doc = "the box of its mass and inertia, or what `at` and `size` give"},
-    {"at", VECTOR(ld_appearance, at, "m", 3), PLACE, DEFAULT(0), .doc = "its centre, body axes"},
+     .doc = "the box of its mass and inertia, or what `at` and `size` or `mesh` give"},
+    {"at", VECTOR(ld_appearance, at, "m", 3), PLACE, DEFAULT(0),
+     .doc = "its centre, of a mesh its origin, body axes"},
     {"attitude", VECTOR(ld_appearance, attitude, "rad", 3), TURN, DEFAULT(0),
      .doc = "yaw, pitch, roll of its axes against the body's"},
-    {"size", VECTOR(ld_appearance, size, "m", 3), FROM_TO(0, 1000), DEFAULT(1),
+    {"size", VECTOR(ld_appearance, size, "m", 3), FROM_TO(0, 1000), DEFAULT(1), .forms = SIZED,
      .doc = "lengths along its x, y, z; a cylinder's axis is x"},
+    {"mesh", TABLE(ld_appearance, mesh, mesh_table), .required = true, .forms = MESH,
+     .doc = "triangles, at most 5000 in all meshes: corners in the axes of the mesh, colour from 0 "
+            "to 1, linear"},
+    {"scale", NUMBER(ld_appearance, scale, ""), ABOVE_TO(0, 1e6), DEFAULT(1), .forms = MESH,
+     .doc = "factor of the mesh"},
     {0}};
-static const field_block looks_block = {.fields = looks_fields};
+static const field_block looks_block = {.fields = looks_fields,
+                                        .form = shape_words,
+                                        .form_offset = offsetof(ld_appearance, shape),
+                                        .form_key = "shape"};
 
 static const field_row body_fields[] = {
     NAME_OF(ld_body, "its name in results and paths"),

@@ -231,6 +231,20 @@ static void mass_rules(const rule_set *rules, const int *carrier)
     }
 }
 
+static void mesh_rules(const rule_set *rules)
+{
+    const ld_mechanism *given = mechanism_of(rules);
+    size_t count = 0;
+    for (int k = 0; k < given->body_count; k++) {
+        size_t before = count;
+        count += given->body[k].appearance.mesh.rows;
+        if (count > LD_MAX_TRIANGLES && before <= LD_MAX_TRIANGLES)
+            report_broken(rules, "base.bodies.#.looks.mesh", k + 1,
+                          "found %zu triangles in all meshes; expected at most %d",
+                          mechanism_triangles(given), LD_MAX_TRIANGLES);
+    }
+}
+
 // ---- force elements
 
 static void ends_rule(const rule_set *rules, const char *list, int index, const char *from,
@@ -366,6 +380,7 @@ void mechanism_rules(const rule_set *rules)
         joint_rules(rules, i, carrier);
     tree_rules(rules, carrier);
     mass_rules(rules, carrier);
+    mesh_rules(rules);
     element_rules(rules);
     drive_rules(rules, carrier);
     wheels_on_rules(rules, carrier);
