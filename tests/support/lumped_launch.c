@@ -106,7 +106,7 @@ void lumped_begin(lumped_launch *self, const ld_model *model, const lumped_base 
         memcpy(self->y + 2 * n, z, (size_t)base->extra * sizeof *z);
     self->locked = self->both = true;
     for (int i = 0; i < ROCKET_COORDINATES; i++)
-        self->system.held[self->first + i] = i != ROCKET_ROLL;
+        self->system.held[self->first + i] = true; // the lock holds roll where no slot does
 }
 
 static void accelerations_of(const lumped_launch *self, const int *coordinate, int count, double *a)
@@ -162,7 +162,7 @@ static void happen(lumped_launch *self)
 {
     bool *held = self->system.held + self->first;
     if (self->locked) {
-        self->locked = held[ROCKET_S] = false;
+        self->locked = held[ROCKET_S] = held[ROCKET_ROLL] = false;
         self->t_release = self->t;
     } else if (self->both) {
         self->both = held[ROCKET_YAW] = held[ROCKET_PITCH] = false;

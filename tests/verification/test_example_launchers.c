@@ -51,28 +51,91 @@ static int add_marker(launcher *self, double x, double y, double z)
     return lumped_add_marker(&self->base, self->point, (double[]){x, y, z});
 }
 
-// ---- a rail that hangs on a wire: two universal joints, axes z and then x
+// ---- a rail that hangs on two wires: universal joints above, axes z and then x, points below
 
-enum { WIRE_Z, WIRE_X, FRAME_Z, FRAME_X, SWING_COORDINATES };
-enum { WIRE = 0, FRAME = 1 };
+enum { LEFT_Z, LEFT_X, FRAME_YAW, FRAME_PITCH, SWING_COORDINATES };
+enum { LEFT = 0, RIGHT = 1, SPREADER = 2, FRAME = 3 };
+
+// The frame's roll, with which the right shackle is a wire's length from its hook: the smaller root
+// of p sin(roll) + r cos(roll) = K by the tangent of half the roll. `e`: from the right hook to the
+// left shackle, turned back by yaw and pitch.
+static cplx roll_of(const cplx e[3], double apart, double length)
+{
+    cplx square = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
+    cplx K = (length * length - square - apart * apart) / (2 * apart), p = -e[1], r = e[2];
+    return 2 * catan((K - r) / (p + csqrt(p * p - (K + r) * (K - r))));
+}
+
+typedef struct swing {
+    cplx hook[2][3], shackle[2][3], right[2]; // [left, right]; angles of the right wire
+    cplx_matrix frame;
+} swing;
+
+static void find_swing(const launcher *self, const cplx *q, swing *at)
+{
+    static const char *const hook[] = {"left-hook", "right-hook"};
+    const double *arm = lumped_joint(self->model, "arm")->at,
+                 *base = lumped_joint(self->model, "base")->at,
+                 *end = lumped_joint(self->model, "left-shackle")->at,
+                 *far = lumped_joint(self->model, "right-shackle")->body_at;
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 3; i++)
+            at->hook[k][i] = base[i] + arm[i] + lumped_joint(self->model, hook[k])->at[i];
+    cplx_matrix left = turns(turn_z(q[LEFT_Z]), turn_x(q[LEFT_X]));
+    put_point(at->hook[0], &left, end, at->shackle[0]);
+    cplx d[3], e[3], way[3];
+    double length = -end[1];
+    for (int i = 0; i < 3; i++)
+        d[i] = at->shackle[0][i] - at->hook[1][i];
+    cplx_matrix back = turns(turn_z(-q[FRAME_PITCH]), turn_y(-q[FRAME_YAW]));
+    for (int i = 0; i < 3; i++)
+        e[i] = back.a[i][0] * d[0] + back.a[i][1] * d[1] + back.a[i][2] * d[2];
+    at->frame = turns(turns(turn_y(q[FRAME_YAW]), turn_z(q[FRAME_PITCH])),
+                      turn_x(roll_of(e, far[2], length)));
+    put_point(at->shackle[0], &at->frame, far, at->shackle[1]);
+    for (int i = 0; i < 3; i++)
+        way[i] = (at->shackle[1][i] - at->hook[1][i]) / length;
+    at->right[0] = catan(-way[0] / way[1]);
+    at->right[1] = -casin(way[2]);
+}
 
 static void place_swing(const void *it, cplx t, const cplx *q, cplx (*r)[3], lumped_frame *tube)
 {
     const launcher *self = it;
-    const double *at[3] = {lumped_joint(self->model, "base")->at,
-                           lumped_joint(self->model, "arm")->at,
-                           lumped_joint(self->model, "hook")->at};
-    cplx hook[3], shackle[3];
+    const double *hanger = lumped_joint(self->model, "hanger")->at;
+    swing at;
+    cplx middle[3];
     (void)t;
-    for (int i = 0; i < 3; i++)
-        hook[i] = at[0][i] + at[1][i] + at[2][i];
-    cplx_matrix wire = turns(turn_z(q[WIRE_Z]), turn_x(q[WIRE_X]));
-    put_body(self, WIRE, hook, &wire, r);
-    put_point(hook, &wire, lumped_joint(self->model, "shackle")->at, shackle);
-    cplx_matrix frame = turns(turns(wire, turn_z(q[FRAME_Z])), turn_x(q[FRAME_X]));
-    put_body(self, FRAME, shackle, &frame, r);
-    put_marker(self, 0, shackle, &frame, r);
-    put_tube(self, shackle, &frame, tube);
+    find_swing(self, q, &at);
+    cplx_matrix left = turns(turn_z(q[LEFT_Z]), turn_x(q[LEFT_X]));
+    cplx_matrix right = turns(turn_z(at.right[0]), turn_x(at.right[1]));
+    put_body(self, LEFT, at.hook[0], &left, r);
+    put_body(self, RIGHT, at.hook[1], &right, r);
+    put_body(self, SPREADER, at.shackle[0], &at.frame, r);
+    put_point(at.shackle[0], &at.frame, hanger, middle);
+    put_body(self, FRAME, middle, &at.frame, r);
+    put_marker(self, 0, middle, &at.frame, r);
+    put_tube(self, middle, &at.frame, tube);
+}
+
+// The damper at the right hook, whose angles follow from the coordinates.
+static void damp_right(const launcher *self, const mass_motion *now, double damping, double *Q)
+{
+    static const double tiny = 1e-30;
+    double J[2][SWING_COORDINATES], rate[2] = {0};
+    for (int j = 0; j < SWING_COORDINATES; j++) {
+        cplx q[SWING_COORDINATES];
+        swing at;
+        for (int i = 0; i < SWING_COORDINATES; i++)
+            q[i] = now->q[i] + (i == j ? I * tiny : 0);
+        find_swing(self, q, &at);
+        for (int k = 0; k < 2; k++) {
+            J[k][j] = cimag(at.right[k]) / tiny;
+            rate[k] += J[k][j] * now->u[j];
+        }
+    }
+    for (int j = 0; j < SWING_COORDINATES; j++)
+        Q[j] -= damping * (J[0][j] * rate[0] + J[1][j] * rate[1]);
 }
 
 // The pull ends within 10 ms; dampers.
@@ -82,12 +145,13 @@ static void push_swing(const void *it, double t, const mass_motion *now, double 
     const launcher *self = it;
     const double *row = self->model->base.mechanism.load[0].force.data + 4;
     double share = fmin(1, fmax(0, 1 - (t - row[0]) / (row[4] - row[0])));
-    double damping = lumped_joint(self->model, "hook")->rotational_damping;
+    double damping = lumped_joint(self->model, "left-hook")->rotational_damping;
     (void)z_dot;
     for (int i = 0; i < 3; i++)
         F[self->marker[0]][i] += share * row[1 + i];
-    for (int i = 0; i < SWING_COORDINATES; i++)
-        Q[i] -= damping * now->u[i];
+    Q[LEFT_Z] -= damping * now->u[LEFT_Z];
+    Q[LEFT_X] -= damping * now->u[LEFT_X];
+    damp_right(self, now, damping, Q);
 }
 
 static void test_suspended(void **state)
@@ -101,19 +165,22 @@ static void test_suspended(void **state)
     begin(&self, &model, SWING_COORDINATES, 0);
     self.base.place = place_swing;
     self.base.push = push_swing;
-    self.body[WIRE] = lumped_add_body(&self.base, self.point, lumped_body(&model, "wire"));
-    self.body[FRAME] = lumped_add_body(&self.base, self.point, lumped_body(&model, "frame"));
+    static const char *const bodies[] = {"left", "right", "spreader", "frame"};
+    for (int i = 0; i < 4; i++)
+        self.body[i] = lumped_add_body(&self.base, self.point, lumped_body(&model, bodies[i]));
     const double *at = model.base.mechanism.load[0].at;
     self.marker[0] = add_marker(&self, at[0], at[1], at[2]);
-    double q[SWING_COORDINATES] = {0.05, 0, 0.05, 0};
+    double q[SWING_COORDINATES] = {0.05, 0, 0, 0.1};
     lumped_begin(&launch, &model, &self.base, -model.run.lead_in, 2e-3, q, NULL, NULL);
-    static const int all[] = {WIRE_Z, WIRE_X, FRAME_Z, FRAME_X};
+    static const int all[] = {LEFT_Z, LEFT_X, FRAME_YAW, FRAME_PITCH};
     lumped_settle(&launch, all, 4);
     recorded_run_make(&run, &model);
-    static const lumped_pair pairs[] = {{"body.wire.pitch", WIRE_Z, 1, 0, 5e-6},
-                                        {"body.wire.roll", WIRE_X, 1, 0, 8e-6},
+    static const lumped_pair pairs[] = {{"body.left.pitch", LEFT_Z, 1, 0, 2e-6},
+                                        {"body.left.roll", LEFT_X, 1, 0, 3e-8},
+                                        {"body.frame.yaw", FRAME_YAW, 1, 0, 1.5e-7},
+                                        {"body.frame.pitch", FRAME_PITCH, 1, 0, 4e-6},
                                         {"rocket.s", -1, 1, 0, 2e-4}};
-    lumped_compare(&launch, &run, pairs, 3, &(lumped_exit){1e-5, 1e-4, 2e-5});
+    lumped_compare(&launch, &run, pairs, 5, &(lumped_exit){1e-5, 1e-4, 2e-5});
     recorded_run_free(&run);
     model_clear(&model);
 }
