@@ -121,6 +121,7 @@ static void set_model(exit_bench *self, const ld_model *of, double speed, double
 {
     ld_model *model = &self->model;
     *model = *of;
+    model->tubes.modes.cut = 0; // as in the response, whose states it takes
     model->firing_count = 1;
     model->firing[0].at = 0;
     model->run.lead_in = settling;

@@ -89,6 +89,7 @@ static ld_status make_end(ld_response *self, int end, ld_error *error)
     ld_model *model = &self->at[end];
     ld_simulation *simulation = NULL;
     *model = *self->model;
+    model->tubes.modes.cut = 0; // frequencies are those of the tube itself
     if (model_has_vehicle(model)) {
         model->base.vehicle.road.form = LD_ROAD_FLAT;
         model->base.vehicle.speed = self->speed[end];

@@ -5,6 +5,7 @@
 
 #include "base/cpu_time.h"
 #include "flight/flight_alone.h"
+#include "model/model.h"
 #include "model/parts.h"
 #include "model/salvo.h"
 #include "run/measures.h"
@@ -87,6 +88,60 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
     return status;
 }
 
+// ---- modes ----
+
+// The simulation with the tube's modes unslowed (`tubes.modes.cut`): the given one, or one of
+// `model`, allocated, to be freed as that is.
+static ld_status unslow(const ld_simulation *of, ld_model **model, ld_simulation **plain,
+                        ld_error *error)
+{
+    *model = NULL;
+    *plain = NULL;
+    if (of->model->tubes.modes.cut == 0)
+        return LD_OK;
+    *model = malloc(sizeof **model);
+    if (!*model)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    **model = *of->model;
+    (*model)->tubes.modes.cut = 0;
+    return simulation_renew(plain, *model, error);
+}
+
+static ld_status find_tube_modes(ld_simulation *self, ld_error *error)
+{
+    ld_model *model;
+    ld_simulation *plain;
+    ld_status status = unslow(self, &model, &plain, error);
+    if (!status)
+        status = simulation_tube_modes(plain ? plain : self, self->mode, 6 + LD_MAX_MODES,
+                                       &self->mode_count, error);
+    ld_simulation_free(plain);
+    free(model);
+    return status;
+}
+
+// NOLINTNEXTLINE(readability-function-size): public
+ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
+                                     int *count, ld_pole *poles, int pole_capacity, int *pole_count,
+                                     ld_error *error)
+{
+    system_modes found = {
+        .mode = modes, .capacity = capacity, .pole = poles, .pole_capacity = pole_capacity};
+    ld_model *model = NULL;
+    ld_simulation *plain = NULL;
+    ld_status status = model_has_launcher(simulation->model)
+                           ? unslow(simulation, &model, &plain, error)
+                           : ld_fail(error, LD_ERR_INPUT,
+                                     "a scenario of flight only has no launcher and no modes");
+    if (!status)
+        status = simulation_system_modes(plain ? plain : simulation, &found, error);
+    *count = found.count;
+    *pole_count = found.pole_count;
+    ld_simulation_free(plain);
+    free(model);
+    return status;
+}
+
 ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_error *error)
 {
     assert(model && out);
@@ -94,8 +149,7 @@ ld_status ld_simulation_create(const ld_model *model, ld_simulation **out, ld_er
     ld_simulation *self = NULL;
     ld_status status = simulation_renew(&self, model, error);
     if (!status)
-        status =
-            simulation_tube_modes(self, self->mode, 6 + LD_MAX_MODES, &self->mode_count, error);
+        status = find_tube_modes(self, error);
     if (!status)
         status = vehicle_run_name_columns(self, error);
     if (status) {

@@ -795,30 +795,24 @@ ld_status simulation_linearise(launch_state *self, bool rubbing, bool restored,
     return status;
 }
 
-// NOLINTNEXTLINE(readability-function-size): public
-ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *modes, int capacity,
-                                     int *count, ld_pole *poles, int pole_capacity, int *pole_count,
-                                     ld_error *error)
+ld_status simulation_system_modes(const ld_simulation *simulation, system_modes *found,
+                                  ld_error *error)
 {
     linear_system system = {0};
     launch_state state, *self = &state;
-    *count = *pole_count = 0;
-    if (!model_has_launcher(simulation->model))
-        return ld_fail(error, LD_ERR_INPUT,
-                       "a scenario of flight only has no launcher and no modes");
     bool moving = simulation->launcher.base.kind->dynamics != NULL;
     ld_status status = launch_state_begin(self, simulation, error);
     if (status)
         return status;
     status = simulation_linearise(self, false, false, &system, error);
-    pole_list all = {.pole = poles, .capacity = pole_capacity};
+    pole_list poles = {.pole = found->pole, .capacity = found->pole_capacity};
     if (!status)
-        status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, &all, error);
-    *pole_count = all.count;
+        status = eigenvalues(self, &system, moving ? LEAST_RATE : 1, &poles, error);
+    found->pole_count = poles.count;
     if (!status && moving)
-        modes_of_poles(poles, *pole_count, modes, capacity, count);
+        modes_of_poles(found->pole, poles.count, found->mode, found->capacity, &found->count);
     else if (!status)
-        status = undamped_modes(self, &system, modes, capacity, count, error);
+        status = undamped_modes(self, &system, found->mode, found->capacity, &found->count, error);
     free(system.J);
     launch_state_end(self);
     return status;

@@ -49,6 +49,18 @@ void linear_displace_all(const launch_state *self, const linear_system *system,
 // [base]. Other than 0: there are none.
 int linear_rates(const launch_state *self, const linear_system *system, const double *y, double *r);
 
+// Modes and eigenvalues found, the first of them up to the capacities.
+typedef struct system_modes {
+    ld_mode *mode;
+    int capacity, count;
+    ld_pole *pole;
+    int pole_capacity, pole_count;
+} system_modes;
+
+// ld_simulation_system_modes() of a launcher, with the tube's modes as the simulation has them.
+ld_status simulation_system_modes(const ld_simulation *simulation, system_modes *found,
+                                  ld_error *error);
+
 // ld_simulation_tube_modes(), found: LD_ERR_MEMORY, LD_ERR_NUMERIC.
 ld_status simulation_tube_modes(const ld_simulation *self, ld_mode *modes, int capacity, int *count,
                                 ld_error *error);

@@ -98,13 +98,17 @@ static void fill_integrals(const tube_line *line, const line_shapes *shapes, dou
     }
 }
 
+// Damping ratio of slowed modes. With 1 % they ring in the rocket's contacts.
+static const double slowed_damping = 0.1;
+
 // Stiffness omega^2 and damping of a line's shapes, of which a plane has a share.
 static void fill_frequencies(const line_shapes *shapes, double share, double zeta, double *om2,
                              double *damping)
 {
     for (int k = 0; k < shapes->count; k++) {
+        bool slowed = k >= shapes->count - shapes->slowed;
         om2[k] = share * shapes->om2[k];
-        damping[k] = 2 * zeta * sqrt(om2[k]);
+        damping[k] = 2 * (slowed ? fmax(zeta, slowed_damping) : zeta) * sqrt(om2[k]);
     }
 }
 

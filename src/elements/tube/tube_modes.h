@@ -47,6 +47,7 @@ bool tube_planes_alike(const ld_tubes *model);
 // The shapes chosen on a line and the frequencies of its own with them, clamped at x = 0.
 typedef struct line_shapes {
     int count;
+    int slowed;                       // of these the last ones, at the cut
     double om2[LD_MAX_BENDING_MODES]; // [1/s2]
     double *nodal;                    // [count][n] nodal vectors, owned
 } line_shapes;

@@ -32,6 +32,7 @@ typedef struct ld_modes {
     int elements; ///< finite elements along the tube (at least; section steps add nodes)
     ld_mode_span span;
     double damping; ///< [-] ratio, of the clamped modes of the bare tube
+    double cut;     ///< [Hz] faster modes are slowed to it, their compliance kept; 0: none
     ld_geometric geometric_stiffness;
     double shear_coefficient; ///< [-] k of k G A; 0: rigid in shear, without rotary inertia
 } ld_modes;

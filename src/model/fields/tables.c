@@ -675,6 +675,8 @@ static const field_row modes_fields[] = {
     {"geometric_stiffness", CHOICE(ld_modes, geometric_stiffness, geometric_words),
      DEFAULT(LD_GEOMETRIC_NO),
      .doc = "geometric stiffness: axial forces stiffen or soften bending"},
+    {"cut", NUMBER(ld_modes, cut, "Hz"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "faster modes are slowed to this frequency, keeping their static compliance; 0: none"},
     {0}};
 static const field_block modes_block = {.fields = modes_fields};
 

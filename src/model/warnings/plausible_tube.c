@@ -16,8 +16,16 @@ static plausible_pair highest_mode(const plausible_entry *at)
     double k = (tubes->modes.bending - 0.5) * PI / tubes->length;
     double stiffness = fmax(section_stiffness_y(s), section_stiffness_z(s));
     double frequency = k * k * sqrt(stiffness / s->mass_per_length) / (2 * PI);
+    if (tubes->modes.cut > 0)
+        frequency = fmin(frequency, tubes->modes.cut);
     return plausible_compare(tubes->modes.bending > 0 ? frequency : NAN,
                              1 / at->model->run.max_step);
+}
+
+static plausible_pair cut(const plausible_entry *at)
+{
+    double frequency = at->model->tubes.modes.cut;
+    return plausible_compare(frequency > 0 ? frequency : NAN, 1 / at->model->run.max_step);
 }
 
 static plausible_pair support_frequency(const plausible_entry *at)
@@ -188,6 +196,8 @@ const plausible_rule plausible_of_tube[] = {
      .why = "auxetic materials are rare"},
     {"tubes.modes.damping", .unit = "", NO_LOW, .high = 0.2,
      .why = "the structure of a tube damps a few percent"},
+    {"tubes.modes.cut", .unit = "Hz", .other = "1/run.max_step", .low = 0.3, NO_HIGH, .find = cut,
+     .of = "run.max_step", .why = "slower modes change the launch and save no steps"},
     {"tubes.modes.bending", "the estimated frequency of the highest mode", .unit = "Hz",
      .other = "1/run.max_step", NO_LOW, .high = 20, .find = highest_mode, .of = "run.max_step",
      .why = "the integrator needs many short steps to follow it"},
