@@ -23,6 +23,8 @@
 #define KN_M {"kN m", 1e-3}
 #define KPA {"kPa", 1e-3}
 #define MPA {"MPa", 1e-6}
+#define MRAD_OR_MM {"mrad or mm", 1e3}
+#define KN_M_OR_KN {"kN m or kN", 1e-3}
 #define J {"J", 1}
 #define KJ {"kJ", 1e-3}
 #define KG {"kg", 1}
@@ -181,6 +183,27 @@ static const plot_figure figures[] = {
                 {"elevation.error", "elevation"}, {"azimuth.error", "azimuth"}),
            HALF("Torque of the azimuth's stabiliser", "torque", KN_M, {"azimuth.torque", ""}),
            HALF("Torque of the elevation's stabiliser", "torque", KN_M, {"elevation.torque", ""})),
+    OPEN_VEHICLE("bodies", "Bodies of a multibody base",
+           WIDE("Height of the origin", "height", M, {"body.*.y", ""}, {"beam.*.y", ""}),
+           WIDE("Pitch", "pitch", DEG, {"body.*.pitch", ""}, {"beam.*.pitch", ""}),
+           HALF("Yaw", "yaw", DEG, {"body.*.yaw", ""}, {"beam.*.yaw", ""}),
+           HALF("Roll", "roll", DEG, {"body.*.roll", ""}, {"beam.*.roll", ""}),
+           HALF("Along x", "x", M, {"body.*.x", ""}, {"beam.*.x", ""}),
+           HALF("To the right", "z", M, {"body.*.z", ""}, {"beam.*.z", ""})),
+    OPEN_VEHICLE("joints", "Joints and drives of a multibody base",
+           HALF("Angle", "angle", DEG, {"joint.*.angle", ""}),
+           HALF("Displacement", "displacement", MM, {"joint.*.displacement", ""}),
+           HALF("Rate of the angle", "rate", MRAD_S, {"joint.*.rate", ""}),
+           HALF("Rate of the displacement", "speed", MM_S, {"joint.*.speed", ""}),
+           HALF("Drives: command minus measured", "error", MRAD_OR_MM, {"drive.*.error", ""}),
+           HALF("Drives: torque or force", "load", KN_M_OR_KN, {"drive.*.torque", ""})),
+    VEHICLE("struts", "Struts, bushings and feet of a multibody base",
+           HALF("Feet: vertical force", "force", KN, {"foot.*.fy", ""}),
+           HALF("Feet: depth in the ground", "depth", MM, {"foot.*.deflection", ""}),
+           HALF("Struts: length", "length", MM, {"strut.*.length", ""}),
+           HALF("Struts: force of the actuator", "force", KN, {"strut.*.push", ""}),
+           HALF("Struts: force of spring and damper", "force", KN, {"strut.*.force", ""}),
+           HALF("Bushings: force along y", "force", KN, {"bushing.*.fy", ""})),
     // flights
     OPEN_FLIGHT("trajectory", "Trajectories of the rockets",
            BROAD("Altitude above sea level, along x", "altitude", M, "altitude",
