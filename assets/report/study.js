@@ -5,6 +5,7 @@ import { originBlock } from "./origin.js";
 import { beside, convergence, distribution, scatter, sensitivity, spread, statedOf } from "./study_plots.js";
 import { isSteep, marked } from "./results.js";
 import { describe, foremost, partCount, partName } from "./study_results.js";
+import { allOver, leading, overKey, sentence } from "./study_sweep.js";
 import { answer, counts, ellipses, failures, footprints, measured, plans, seriesName, statistics } from "./study_tables.js";
 
 const host = document.getElementById("report");
@@ -104,15 +105,17 @@ const notes = data.notes.map((note) => element("p", { className: "warning" }, no
 const launches = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
 const listed = first.length ? first : swept(), told = listed.length ? answer(data, listed) : null, [shares, otherShares] = sensitivities();
 const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, { ...pair, title: marked(pair.y, pair.title, steep.length > 0) })).filter(Boolean);
+const said = sentence(data, listed), swing = leading(data), picture = swing ? overKey(data, ...swing) : null;
 const lead = (title, plots, others) => // beside each other
-  section("summary", title, ...notes, ...states(), element("div", { className: "lead" }, told, plots), others);
+  section("summary", title, ...notes, ...states(), said, element("div", { className: "lead" }, told, plots), others);
 const besides = one && !shares ? clouds.length > 0 ? "scatter" : "results" : "";
 const distributions = first.map((result) => distribution(data, result));
 if (one && shares) lead("Answer and sensitivities", shares, otherShares);
 else if (besides === "scatter") lead("Answer and scatter", grid(clouds.slice(0, MOST_BESIDE)), rest(folded("Scatter of other results", grid(clouds.slice(MOST_BESIDE)))));
 else if (besides === "results") lead("Answer and results", grid(distributions.splice(0, MOST_BESIDE)));
 else {
-  section("summary", "Answer", ...notes, ...states(), told);
+  section("summary", "Answer", ...notes, ...states(), said, picture, told);
+  section("swept", "Swept keys", rest(...(data.over?.keys ?? []).map(({ name }, k) => folded(`Results over ${name}`, grid(allOver(data, k))))));
   section("sensitivities", "Sensitivities", shares, otherShares);
 }
 section("measured", "Measured and simulated", launches.length ? measured(data, launches) : null,

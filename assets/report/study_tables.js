@@ -34,6 +34,10 @@ function meanAndDeviation(own, f) {
   return deviation > 0 ? `${said(own.mean[0])} ± ${said(deviation)}` : said(own.mean[0]);
 }
 
+// The swept keys of all studies, and what a series has of one.
+const sweptKeys = (data) => [...new Set(data.series.flatMap(({ swept }) => swept.map(([key]) => key)))];
+const valueOf = ({ swept }, key) => swept.find(([own]) => own === key)?.[1] ?? "";
+
 // How much of what was requested is there.
 function keptLine({ series }) {
   const sum = (of) => series.reduce((total, one) => total + of(one), 0), failed = sum((s) => s.failed);
@@ -49,8 +53,11 @@ export function answer(data, results) {
     const [own] = result.series, [low, , high] = own.quantiles.map(([v]) => digitsOf(own, result.factor)(v));
     return element("tr", {}, head(result.label, "row"), element("td", {}, meanAndDeviation(own, result.factor), unit(result)), cell(`${low} … ${high}`));
   })];
-  const several = () => [element("tr", {}, head(""), ...results.map((result) => head(`${result.label}${result.unit ? ` [${result.unit}]` : ""}`))),
-    ...data.series.map((series, i) => element("tr", {}, head(seriesName(series, i), "row"),
+  const keys = sweptKeys(data), named = keys.length === 0 || data.studies.length > 1;
+  const first = (series, i) => head(named ? seriesName(series, i) : seriesName({ label: valueOf(series, keys[0]) }, i), "row");
+  const rest = named ? keys : keys.slice(1);
+  const several = () => [element("tr", {}, head(named ? "" : keys[0]), ...rest.map((key) => head(key, "col", { className: "text" })), ...results.map((result) => head(`${result.label}${result.unit ? ` [${result.unit}]` : ""}`))),
+    ...data.series.map((series, i) => element("tr", {}, first(series, i), ...rest.map((key) => cell(valueOf(series, key), "text")),
       ...results.map((result) => cell(meanAndDeviation(result.series[i], result.factor)))))];
   const single = results.every(({ series }) => series.every((own) => !(own?.deviation[0] > 0)));
   const made = card(single ? "Results" : "Mean and standard deviation", element("table", data.series.length === 1 ? { className: "one" } : {},
@@ -65,10 +72,9 @@ const distinct = (data, of) => new Set(data.series.map(of)).size > 1;
 // A row for each series: what was run, and how much of it.
 export function counts(data) {
   const most = (i, key) => Math.max(0, ...data.results.map(({ series }) => series[i]?.[key] ?? 0));
-  const keys = [...new Set(data.series.flatMap(({ swept }) => swept.map(([key]) => key)))];
   const columns = [
     ...(distinct(data, (s) => s.title) ? [["title", (s) => s.title, "text"]] : []),
-    ...keys.map((key) => [key, (s) => s.swept.find(([own]) => own === key)?.[1] ?? "", "text"]),
+    ...sweptKeys(data).map((key) => [key, (s) => valueOf(s, key), "text"]),
     ["samples kept", (s) => (s.done > s.samples ? `${s.done}, ${s.samples} asked for` : `${s.done} of ${s.samples}`)],
     ["failed", (s) => String(s.failed)],
     ["rockets of good samples", (s, i) => String(most(i, "count"))],

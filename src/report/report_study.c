@@ -9,15 +9,37 @@
 
 // ---- what is laid side by side
 
-// "speed = 15 km/h" where one key is swept, else the point's number.
+// Which of the values of a swept key a point has, from 1.
+static int value_number(const study_data *data, const study_point *point, int axis)
+{
+    int number = 1;
+    for (int i = 0; i < data->point_count; i++) {
+        bool before = true;
+        for (int j = 0; j < i && before; j++)
+            before = strcmp(data->point[j].text[axis], data->point[i].text[axis]) != 0;
+        if (strcmp(data->point[i].text[axis], point->text[axis]) == 0)
+            break;
+        number += before;
+    }
+    return number;
+}
+
+// "speed = 15 km/h"; of several keys "15 km/h, 0.5 s", of a long value "order 2".
 static void point_name(const study_data *data, const study_point *point, char *name, size_t size)
 {
-    enum { LONGEST = 24 };
-    if (data->swept_count == 1 && strlen(point->text[0]) <= LONGEST) {
-        const char *dot = strrchr(data->swept[0], '.');
-        snprintf(name, size, "%s = %s", dot ? dot + 1 : data->swept[0], point->text[0]);
-    } else if (data->swept_count > 0) {
-        snprintf(name, size, "point %lld", (long long)point->number);
+    enum { LONGEST = 24, LONG = 16 };
+    const bool one = data->swept_count == 1;
+    name[0] = '\0';
+    for (int k = 0; k < data->swept_count; k++) {
+        const char *dot = strrchr(data->swept[k], '.'), *key = dot ? dot + 1 : data->swept[k];
+        bool is_long = strlen(point->text[k]) > (one ? LONGEST : LONG);
+        size_t length = strlen(name);
+        if (is_long)
+            snprintf(name + length, size - length, "%s%s %d", k ? ", " : "", key,
+                     value_number(data, point, k));
+        else
+            snprintf(name + length, size - length, "%s%s%s%s", k ? ", " : "", one ? key : "",
+                     one ? " = " : "", point->text[k]);
     }
 }
 

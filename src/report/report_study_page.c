@@ -8,6 +8,7 @@
 #include "launchdyn/version.h"
 #include "report/report_study_measured.h"
 #include "report/report_study_numbers.h"
+#include "report/report_study_over.h"
 #include "report/report_study_plan.h"
 #include "report/report_study_scatter.h"
 #include "report/report_study_sensitivity.h"
@@ -277,7 +278,10 @@ ld_status study_write_data(FILE *json, study_source *source)
     fputs("],\"results\":[", json);
     if (!status)
         status = write_results(json, source);
-    fputs("],\"pairs\":[", json);
+    fputs("],\"over\":", json);
+    if (!status)
+        status = study_write_over(json, source);
+    fputs(",\"pairs\":[", json);
     if (!status)
         status = study_write_pairs(json, source);
     fputs("],\"sensitivities\":[", json);

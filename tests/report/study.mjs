@@ -187,6 +187,42 @@ async function checkSweep(browser) {
     JSON.parse(launchdyn("run", example("fixed.yaml"), "--set", `rocket.mass=${mass} kg`, "--json")).rockets[0].exit_speed);
   check("each point has a row with its values", rows.length === 4 && column > 0 && speeds.every((speed, i) => near(Number(rows[i + 1][column]), speed, 2e-4)), JSON.stringify(rows));
   check("not called means", (await page.textContent(".answer h3")) === "Results");
+  check("the table begins with the swept values", rows[0][0] === "rocket.mass" && masses.every((mass, i) => rows[i + 1][0] === `${mass} kg`), JSON.stringify(rows.map(([first]) => first)));
+  const said = await page.textContent(".sentence");
+  check("single launches have no interval", said.startsWith("With rocket.mass ") && said.endsWith("Single launches: no interval."), said);
+  await leave(page);
+}
+
+// The first screen of a sweep with scatter: one sentence with its interval, then one picture, whose dots stand where its
+// axes say; pooled numbers as study show has them.
+async function checkSwept(browser) {
+  console.log("a sweep over two keys");
+  const scenario = join(folder, "swept.yaml"), out = join(folder, "swept"), masses = [55, 60, 65];
+  writeFileSync(scenario, `include: ${example("fixed.yaml")}\nsweep: {rocket.mass: [${masses.map((mass) => `${mass} kg`)}], base.elevation: [10 deg, 20 deg]}\n` +
+    "scatter: {samples: 8, factors: {rocket.mass_error: {normal: 0.2 kg}, rocket.eccentricity.y: {normal: 0.3 mm}}}\n");
+  launchdyn("study", scenario, "--out", out, "--quiet");
+  const page = await open(browser, reportOf("swept.html", { out }), { width: 1400 }), { over } = await dataOf(page);
+  const { result: r, key: k, value, deviation } = over.lead, result = over.results[r], key = over.keys[k], said = await page.textContent(".sentence");
+  const cell = result.keys[k][value], estimate = deviation ? cell.ratio : cell.difference.map((v) => 1e3 * v);
+  const [low, high] = /95\s% interval (\S+) to (\S+)\)/.exec(said).slice(1).map((text) => Number(text.replace("−", "-")));
+  check("the sentence has the interval", near(low, estimate[1], 0.05) && near(high, estimate[2], 0.05) && said.includes(`${key.name} ${key.texts[value]}`), said);
+  const other = over.keys[1 - k].name;
+  check("the sentence says over what it is pooled", said.includes(`pooled over ${other}`), said);
+  const boxes = await page.$$eval("#summary ~ *", (list) => list.slice(0, 3).map((node) => node.className.split(" ").find((name) => ["sentence", "panel", "answer"].includes(name)) ?? node.className));
+  check("sentence, picture, table", boxes.join() === "sentence,panel,answer", boxes);
+  const rows = await page.$$eval(".answer tr", (list) => list.map((row) => [...row.cells].map((one) => one.textContent)));
+  check("a row names both swept values", rows[0].slice(0, 2).join() === "rocket.mass,base.elevation" && rows[6].slice(0, 2).join() === "65 kg,20 deg", JSON.stringify(rows.map((row) => row.slice(0, 2))));
+  check("no point by its number", !/\bpoint \d/.test(await page.textContent("main, #report")));
+  const title = await page.getAttribute("#summary ~ .panel", "data-title"), dots = await page.$$eval(`${panel(title)} circle.dot`, (list) => list.map((dot) => [Number(dot.getAttribute("cx")), Number(dot.getAttribute("cy"))]));
+  const ticks = await page.$$eval(`${panel(title)} .plot > svg > text:not(.axis)`, (list) => list.map((text) => [text.getAttribute("text-anchor"), Number(text.getAttribute("x")), Number(text.getAttribute("y")), Number(text.textContent.replace("−", "-"))]));
+  const lineOf = (pairs) => { const [[a, u], [b, v]] = [pairs[0], pairs.at(-1)]; return (at) => u + ((at - a) / (b - a)) * (v - u); };
+  const y = lineOf(ticks.filter(([anchor]) => anchor === "end").filter(([, x]) => x < 100).map(([, , at, v]) => [at - 4, v]));
+  const x = lineOf(ticks.filter(([anchor]) => anchor === "middle").map(([, at, , v]) => [at, v]));
+  const shown = result.keys[k].map((own) => 1e3 * own[deviation ? "deviation" : "mean"][0]), span = Math.max(...shown) - Math.min(...shown);
+  check("dots stand at their values", dots.length === shown.length && dots.every(([left, top], i) => Math.abs(x(left) - key.numbers[i]) < 0.01 * (key.numbers.at(-1) - key.numbers[0]) && Math.abs(y(top) - shown[i]) < 0.02 * span), `${JSON.stringify(dots)} ${shown}`);
+  const table = launchdyn("study", "show", out, "--over", key.name, "--what", result.name).split("\n").filter((line) => line.startsWith(key.texts[value]));
+  check("the pooled mean is that of study show", near(Number(table[0].split(/\s+/)[2]), 1e3 * cell.mean[0], 1e-4), table[0]);
+  await picture(page, "swept.png");
   await leave(page);
 }
 
@@ -372,6 +408,7 @@ await inBrowser(async (browser) => {
   await checkOne(browser, studies[0]);
   await checkWithout(browser);
   await checkSweep(browser);
+  await checkSwept(browser);
   await checkFootprints(browser);
   await checkSideBySide(browser, studies);
   await checkColumns(browser, studies);
