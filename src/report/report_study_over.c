@@ -9,7 +9,7 @@
 #include "results/json_text.h"
 #include "studies/points/over_statistic.h"
 
-enum { MOST_RESULTS = 12, MOST_KEYS = 8, RATES = 4 };
+enum { MOST_RESULTS = 12, MOST_KEYS = 8, MOST_CELLS = 120, RATES = 4 };
 
 // The rates at the exit first: of them the one is chosen that moves most.
 static const char *const wanted[] = {"since_ignition.pitch_rate",
@@ -40,6 +40,21 @@ typedef struct over_writer {
     bool broken; // said already
 } over_writer;
 
+// Values of all keys.
+static int count_cells(const study_data *data)
+{
+    int cells = 0;
+    for (int k = 0; k < data->swept_count; k++)
+        for (int i = 0; i < data->point_count; i++) {
+            bool first = true;
+            for (int j = 0; j < i && first; j++)
+                first = strcmp(data->point[j].text[k], data->point[i].text[k]) != 0;
+            cells += first;
+        }
+    return cells;
+}
+
+// The first of those wanted and of the scenario's measures, as many as have room.
 static void choose_results(over_writer *self)
 {
     const study_data *data = self->data;
@@ -52,6 +67,8 @@ static void choose_results(over_writer *self)
     for (int i = 0; i < data->result_count && self->results < MOST_RESULTS; i++)
         if (study_result_is_measure(data->column[i].name))
             self->result[self->results++] = &data->column[i];
+    while (self->results > 1 && self->results * count_cells(data) > MOST_CELLS)
+        self->results--;
 }
 
 // ---- the key that matters
@@ -128,16 +145,17 @@ static void weigh_effects(over_writer *self, int result, int key, int value, con
     offer_effect(self, &spread);
 }
 
+// Eight digits: the numbers are of study show.
 static void write_cell(FILE *json, const over_numbers *of)
 {
     fputs("{\"mean\":", json);
-    study_write_estimate(json, 0, of->mean.of, json_write_number);
+    study_write_estimate(json, 0, of->mean.of, study_write_short);
     fputs(",\"deviation\":", json);
-    study_write_estimate(json, 0, of->deviation.of, json_write_number);
+    study_write_estimate(json, 0, of->deviation.of, study_write_short);
     fputs(",\"difference\":", json);
-    study_write_estimate(json, 0, of->difference.of, json_write_number);
+    study_write_estimate(json, 0, of->difference.of, study_write_short);
     fputs(",\"ratio\":", json);
-    study_write_estimate(json, 0, of->ratio.of, json_write_number);
+    study_write_estimate(json, 0, of->ratio.of, study_write_short);
     fprintf(json, ",\"count\":%zu,\"groups\":%zu}", of->mean.count, of->mean.groups);
 }
 
