@@ -58,6 +58,7 @@ scatter:
   await take(browser, "report-study.png", reportOf("flights.html", studyOf("flights", flight)), { width: 1200, height: 545 });
   const speeds = studyOf("speeds", example("salvo-marching.yaml"), "scatter.samples=10", "title=Ten salvos of 18 rockets at each speed");
   await take(browser, "report-studies.png", reportOf("speeds.html", speeds), { width: 1280, height: 640, top: "#scatter" });
+  await take(browser, "report-sweep.png", reportOf("interval.html", studyOf("interval", example("interval.yaml"))), { width: 1200, height: 700 });
   const salvo = studyOf("salvo", example("salvo.yaml"));
   const same = studyOf("same", example("measured.yaml"), "scatter.seed=2026", "scatter.samples=10");
   const from = process.cwd();
