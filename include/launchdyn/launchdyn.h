@@ -4,6 +4,7 @@
 #define LAUNCHDYN_LAUNCHDYN_H
 
 #include "launchdyn/child.h"
+#include "launchdyn/compare.h"
 #include "launchdyn/environment.h"
 #include "launchdyn/fit.h"
 #include "launchdyn/fmu.h"

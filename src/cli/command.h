@@ -49,6 +49,7 @@ int command_fit(const command *self, int argc, char **argv);
 int command_fmu(const command *self, int argc, char **argv);
 int command_plot(const command *self, int argc, char **argv);
 void command_plot_figures(void);
+int command_compare(const command *self, int argc, char **argv);
 int command_report(const command *self, int argc, char **argv);
 int command_response(const command *self, int argc, char **argv);
 int command_road(const command *self, int argc, char **argv);

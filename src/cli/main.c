@@ -97,6 +97,19 @@ static const command commands[] = {
      .more = command_plot_figures,
      .run = command_plot,
      .in_child = true},
+    {.name = "compare",
+     .arguments = "DIR LOG",
+     .words = COMMAND_WORDS,
+     .summary = "Compare a run with a log of what was measured",
+     .about =
+         "Simulates the log's sensors in the run stored in DIR and prints simulated less "
+         "measured (E), its standard uncertainties and a verdict, after ASME V&V 20. LOG.yaml "
+         "beside the log says what its sensors are; without it, columns with names of the run's "
+         "are compared.",
+     .examples = "launchdyn compare out log.csv --refine --samples 50|With numerical and input "
+                 "uncertainties",
+     .run = command_compare,
+     .in_child = true},
     {.name = "report",
      .arguments = "DIR...",
      .words = COMMAND_WORDS,

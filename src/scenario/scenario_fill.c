@@ -704,6 +704,12 @@ static void read_block(scenario_reader *reader, const field_block *block, const 
         read_key(reader, block, f, map, base, path);
 }
 
+void scenario_fill_block(scenario_reader *reader, const field_block *block, const tree_node *map,
+                         void *base, const char *path)
+{
+    read_block(reader, block, map, base, path);
+}
+
 // ---- rules
 
 typedef struct rule_context {

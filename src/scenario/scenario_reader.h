@@ -145,6 +145,9 @@ const char *scenario_key_meant(const struct field_block *block, const char *key)
 // Reads the tree into `model` (initialised), each value against its table; then checks the rules.
 void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);
 void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
+// Reads a block's keys from `map`, whose path is given, into its struct, which was initialised.
+void scenario_fill_block(scenario_reader *reader, const struct field_block *block,
+                         const tree_node *map, void *base, const char *path);
 
 // Adds a message about each value of a good scenario that is allowed but implausible.
 void scenario_take_notes(scenario_reader *reader, const tree_node *root, const ld_model *model);

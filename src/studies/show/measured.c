@@ -8,6 +8,7 @@
 #include "base/suggestion.h"
 #include "base/text_file.h"
 #include "base/text_lines.h"
+#include "scenario/measured/csv_column.h"
 #include "scenario/scenario_reader.h"
 
 enum { MOST_BYTES = 64 << 20, NO_RESULT = -1 };
@@ -51,27 +52,14 @@ static bool next_line(launch_reader *self)
 // ---- the header
 
 // Takes the unit, what stands behind the name in brackets, of a result in SI unit `target`.
-static ld_status read_unit(const launch_reader *self, int field, measured_result *result,
-                           const char *target)
+static ld_status read_unit(const launch_reader *self, int field, const csv_column *head,
+                           measured_result *result, const char *target)
 {
-    char text[256], unknown[32], quoted[64];
-    const char *meant = NULL;
-    units_result read = units_factor(result->unit, target, &result->factor, unknown);
-    if (read == UNITS_OK)
-        return LD_OK;
-    if (read == UNITS_UNKNOWN)
-        meant = units_suggestion(unknown);
-    if (!result->unit[0])
-        snprintf(text, sizeof text, "no unit; expected one of %s in brackets, such as \"%s [%s]\"",
-                 target, result->name, target);
-    else if (target[0])
-        snprintf(text, sizeof text, "found the unit %s; expected one of %s%s%s%s",
-                 reader_quote(result->unit, quoted), target, meant ? ", did you mean \"" : "",
-                 meant ? meant : "", meant ? "\"?" : "");
-    else
-        snprintf(text, sizeof text, "found the unit %s; expected none, or %%",
-                 reader_quote(result->unit, quoted));
-    return refuse(self, field, result->name, text);
+    char text[256];
+    snprintf(result->unit, sizeof result->unit, "%s", head->unit);
+    return csv_column_factor(head, target, &result->factor, text, sizeof text)
+               ? LD_OK
+               : refuse(self, field, result->name, text);
 }
 
 static const char *unit_of_result(const void *data, const char *name, char now[MEASURED_NAME],
@@ -91,16 +79,16 @@ static ld_status read_head(launch_reader *self, int field)
     measured_result *result = &launches->result[launches->results];
     const char *text = self->at.field[field];
     char message[256], quoted[64], now[MEASURED_NAME], near[MEASURED_NAME];
-    int end = 0;
+    csv_column head;
     self->result[field] = NO_RESULT;
     if (strcmp(text, "salvo") == 0 && self->salvo == NO_RESULT) {
         self->salvo = field;
         return LD_OK;
     }
-    sscanf(text, "%95[^][ \t]%n [%31[^]]]%n", result->name, &end, result->unit, &end);
-    if (!result->name[0] || text[end])
+    if (!csv_column_read(text, &head))
         return refuse(self, field, "",
                       "expected a result with its unit, such as \"t_front [ms]\", or \"salvo\"");
+    snprintf(result->name, sizeof result->name, "%s", head.name);
     const char *unit = self->names->unit_of(self->names->self, result->name, now, near);
     if (!unit) {
         snprintf(message, sizeof message, "%s %s%s%s%s", self->names->none,
@@ -116,7 +104,7 @@ static ld_status read_head(launch_reader *self, int field)
         if (strcmp(launches->result[i].name, result->name) == 0)
             return refuse(self, field, result->name, "is given in an earlier column, too");
     self->result[field] = launches->results++;
-    return read_unit(self, field, result, unit);
+    return read_unit(self, field, &head, result, unit);
 }
 
 static ld_status read_header(launch_reader *self)
@@ -139,14 +127,10 @@ static ld_status read_header(launch_reader *self)
 
 static ld_status read_number(const launch_reader *self, int field, const char *name, double *value)
 {
-    char message[256], quoted[64];
-    const char *text = self->at.field[field], *reason, *end = number_parse(text, value, &reason);
-    if (end && *end == '\0')
-        return LD_OK;
-    snprintf(message, sizeof message,
-             "found %s%s%s; expected a number, or nothing where there is none",
-             reader_quote(text, quoted), reason ? ", " : "", reason ? reason : "");
-    return refuse(self, field, name, message);
+    char message[256];
+    return csv_number(self->at.field[field], value, message, sizeof message)
+               ? LD_OK
+               : refuse(self, field, name, message);
 }
 
 static ld_status read_field(const launch_reader *self, int field, launch_row *row)

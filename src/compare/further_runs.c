@@ -1,0 +1,115 @@
+#include "compare/further_runs.h"
+
+#include "launchdyn/scenario.h"
+#include "launchdyn/study.h"
+
+// The first message, as a sentence.
+static ld_status fail_by(ld_status status, ld_messages *messages, ld_error *error)
+{
+    if (messages->count > 0)
+        ld_fail(error, status, "%.150s: %s", messages->item[0].path, messages->item[0].text);
+    else
+        ld_fail(error, status, "no memory for a further run");
+    ld_messages_free(messages);
+    return status;
+}
+
+ld_status further_runs_open(further_runs *self, const char *folder, const ld_run_options *options,
+                            ld_error *error)
+{
+    ld_messages messages;
+    *self = (further_runs){.options = *options};
+    ld_status status = ld_origin_read(folder, &self->origin, error);
+    if (status)
+        return status;
+    if (!self->origin.source)
+        status =
+            ld_fail(error, LD_ERR_INPUT,
+                    "%.300s cannot be repeated: its model was not read from a scenario", folder);
+    else if ((status = ld_scenario_read_source(self->origin.source, self->origin.point,
+                                               &self->model, &messages)) != LD_OK)
+        fail_by(status, &messages, error);
+    if (status)
+        further_runs_close(self);
+    return status;
+}
+
+void further_runs_close(further_runs *self)
+{
+    ld_model_free(self->model);
+    ld_origin_free(&self->origin);
+    self->model = NULL;
+}
+
+// What is run, and who takes it.
+typedef struct one_run {
+    const ld_model *model;
+    ld_run_options options;
+    int rocket;
+    run_taker *take;
+    void *data;
+} one_run;
+
+static ld_status run_model(one_run *self, ld_error *error)
+{
+    ld_simulation *simulation = NULL;
+    ld_summary *summary = ld_summary_new();
+    ld_history *history = ld_history_new(NULL);
+    ld_status status = summary && history
+                           ? ld_simulation_create(self->model, &simulation, error)
+                           : ld_fail(error, LD_ERR_MEMORY, "no memory for a further run");
+    if (!status) {
+        self->options.sink = ld_history_sink(history);
+        status = ld_simulation_run(simulation, &self->options, summary, error);
+    }
+    run_series series = {.launch = {0}};
+    if (!status)
+        status = run_series_of_run(&series, history, summary, self->rocket, error);
+    if (!status)
+        status = self->take(self->data, &series, summary, error);
+    run_series_free(&series);
+    ld_simulation_free(simulation);
+    ld_history_free(history);
+    ld_summary_free(summary);
+    return status;
+}
+
+// Sample `number` of its model; 0: the model itself.
+static ld_status run_sample(one_run *self, int number, ld_error *error)
+{
+    ld_sample *sample = NULL;
+    if (number == 0)
+        return run_model(self, error);
+    ld_status status = ld_sample_create(self->model, number, &sample, error);
+    if (!status) {
+        self->model = ld_sample_model(sample);
+        status = run_model(self, error);
+    }
+    ld_sample_free(sample);
+    return status;
+}
+
+ld_status further_run(const further_runs *self, const run_overrides *overrides, int rocket,
+                      run_taker *take, void *data, ld_error *error)
+{
+    ld_model *derived = NULL;
+    ld_messages messages;
+    one_run run = {self->model, self->options, rocket, take, data};
+    if (!overrides)
+        return run_sample(&run, self->origin.sample, error);
+    ld_status status =
+        ld_model_derive(self->model, overrides->set, overrides->count, &derived, &messages);
+    if (status)
+        return fail_by(status, &messages, error);
+    run.model = derived;
+    status = run_sample(&run, self->origin.sample, error);
+    ld_model_free(derived);
+    return status;
+}
+
+ld_status further_run_sample(const further_runs *self, int number, int rocket, run_taker *take,
+                             void *data, ld_error *error)
+{
+    one_run run = {self->model, self->options, rocket, take, data};
+    return run_sample(&run, number, error);
+}
