@@ -1,8 +1,10 @@
-/// The loop that holds a hinge of a vehicle, opened at the torque that its controller asks for:
-/// what it bears before it swings, how fast it follows, what it leaves of a disturbance. From the
-/// linearised equations (docs/response.md), without runs.
+/// The loop that holds a hinge of a vehicle or a joint of a multibody base, opened at the torque
+/// that its controller asks for: what it bears before it swings, how fast it follows, what it
+/// leaves of a disturbance. From the linearised equations (docs/response.md), without runs.
 #ifndef LAUNCHDYN_LOOP_H
 #define LAUNCHDYN_LOOP_H
+
+#include <stdbool.h>
 
 #include "launchdyn/model.h"
 #include "launchdyn/response.h"
@@ -37,9 +39,10 @@ typedef struct ld_loop_margins {
 } ld_loop_margins;
 
 /// @param model kept by reference
-/// @param hinge "azimuth", "elevation"
-/// @return as ld_response_create(), and LD_ERR_INPUT (no such hinge, no vehicle, a locked hinge, a
-///         delay that makes the loop unstable)
+/// @param hinge "azimuth", "elevation"; of a multibody base the name of a drive
+/// @return as ld_response_create(), and LD_ERR_INPUT (no such hinge or drive, another base, a
+/// locked
+///         hinge, a delay that makes the loop unstable)
 ld_status ld_loop_create(const ld_model *model, const char *hinge, ld_loop **loop, ld_error *error);
 void ld_loop_free(ld_loop *loop);
 
@@ -55,9 +58,12 @@ ld_status ld_loop_points(ld_loop *loop, const double *frequency, size_t count, l
 /// not in it.
 /// @param frequency [Hz] > 0 [count]
 /// @param rejection [count]
-/// @return as ld_loop_points()
+/// @return as ld_loop_points(), and LD_ERR_INPUT (of a multibody base)
 ld_status ld_loop_rejection(ld_loop *loop, const double *frequency, size_t count,
                             ld_phasor *rejection, ld_error *error);
+
+/// Whether it has that: of a vehicle.
+bool ld_loop_has_rejection(const ld_loop *loop);
 
 void ld_loop_margins_of(const ld_loop *loop, ld_loop_margins *margins);
 

@@ -18,6 +18,13 @@ int study_take_notes(const ld_study *study, const study_wishes *wishes)
                               axes > 0 ? ld_scenario_points(nominal) : 0, wishes->run.strict != 0);
 }
 
+static int report_all_failed(const ld_study_counts *counts)
+{
+    command_complain("all %lld samples failed; launchdyn study show lists why",
+                     (long long)counts->done);
+    return command_code(LD_ERR_LAUNCH);
+}
+
 int study_run_all(const ld_study *study, const study_wishes *wishes, study_runner *run)
 {
     run_progress progress;
@@ -45,7 +52,9 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
                (long long)counts.samples);
     if (!status && !command_is_quiet() && !wishes->shards)
         status = ld_study_show(wishes->run.folder, NULL, stdout, &error);
-    return status ? command_fail(status, &error) : 0;
+    if (status)
+        return command_fail(status, &error);
+    return counts.done > 0 && counts.failed == counts.done ? report_all_failed(&counts) : 0;
 }
 
 // One sample of a study, with its whole history, in a folder of its own.

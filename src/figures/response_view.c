@@ -231,7 +231,7 @@ enum { OF_LOOP = sizeof of_loop / sizeof *of_loop };
 
 static ld_status choose_loop(ld_response_view *view, ld_error *error)
 {
-    view->columns = OF_LOOP;
+    view->columns = ld_loop_has_rejection(view->loop) ? OF_LOOP : OF_LOOP - 1;
     view->column = malloc(sizeof of_loop);
     if (!view->column)
         return no_memory(error);
@@ -270,16 +270,16 @@ static void put_gain(ld_response_view *view, size_t i, size_t k, ld_phasor gain)
 static ld_status fill_loop(ld_response_view *view, const ld_response_wish *wish, ld_error *error)
 {
     ld_loop_point at;
-    ld_phasor rejection;
+    ld_phasor rejection = {0};
     ld_status status = choose_loop(view, error);
     if (!status)
         status = set_frequencies(view, wish->from, wish->to, error);
     for (size_t k = 0; k < POINTS && !status; k++) {
         status = ld_loop_points(view->loop, &view->x[k], 1, &at, error);
-        if (!status)
+        if (!status && ld_loop_has_rejection(view->loop))
             status = ld_loop_rejection(view->loop, &view->x[k], 1, &rejection, error);
         const ld_phasor gain[OF_LOOP] = {at.open, at.tracking, at.sensitivity, rejection};
-        for (size_t i = 0; i < OF_LOOP && !status; i++)
+        for (size_t i = 0; i < view->columns && !status; i++)
             put_gain(view, i, k, gain[i]);
     }
     return status;
@@ -706,6 +706,8 @@ static void print_loop(const ld_response_view *view, FILE *stream)
     else
         fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "peak of the sensitivity", margins.peak,
                 margins.peak_at);
+    if (!ld_loop_has_rejection(view->loop))
+        return;
     const double *rejection = view->value + (OF_LOOP - 1) * view->count;
     size_t k = greatest(rejection, view->count);
     fprintf(stream, "  %-34s %10.4g at %.4g Hz\n", "largest share of the chassis' rotation",

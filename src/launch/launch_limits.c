@@ -26,6 +26,19 @@ ld_status launch_check_tube(ld_run *run, double t, const double *y)
     return LD_OK;
 }
 
+// Beyond the breech, which is a contact's spring; without a law that has one it holds nothing.
+static ld_status report_breech(ld_run *run, double t, double depth)
+{
+    double stiffness = run->launch.rocket->contact.stiffness;
+    char why[64];
+    if (isnan(stiffness))
+        snprintf(why, sizeof why, "rocket.contact has no stiffness that holds it");
+    else
+        snprintf(why, sizeof why, "a contact of %.6g N/m does not hold it", stiffness);
+    return ld_fail(&run->error, LD_ERR_LAUNCH,
+                   "the rocket is %.4g m behind the breech at t = %.6g s: %s", depth, t, why);
+}
+
 static ld_status check_progress(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
@@ -39,11 +52,7 @@ static ld_status check_progress(ld_run *run, double t, const double *y)
     if (!self->phase.rocket)
         return LD_OK;
     if (self->phase.breech - s > 0.1 * self->launcher.launching.tube.flexible.length)
-        return ld_fail(
-            &run->error, LD_ERR_LAUNCH,
-            "the rocket is %.4g m behind the breech at t = %.6g s: a contact of %.6g N/m "
-            "does not hold it",
-            self->phase.breech - s, t, rocket->contact.stiffness);
+        return report_breech(run, t, self->phase.breech - s);
     if (since < model_run(self->model)->stuck_time)
         return LD_OK;
     if (self->phase.locked)

@@ -3,7 +3,7 @@
 //   asked / (C r) = E - (F/C) b = 1/(1 + L),
 // C and F what the controller makes of an error and of that rate: the closed loop gives the open
 // one. How the chassis turns the platform is what it does where forces on it let it do nothing else
-// than turn about the hinge.
+// than turn about the hinge. For a drive of a multibody base there is no such answer.
 #include "launchdyn/loop.h"
 #include "model/blocks/base.h"
 #include "model/blocks/platform.h"
@@ -34,9 +34,11 @@ enum {
 struct ld_loop {
     ld_response *response;
     const ld_stabiliser *stabiliser;
-    char command[64];  // the input
-    double speed;      // [m/s]
-    double axis[3];    // of the hinge, in the chassis' axes
+    char path[LD_MAX_NAME + 24];    // of its keys
+    char command[LD_MAX_NAME + 16]; // the input
+    int seen;                       // columns
+    double speed;                   // [m/s]
+    double axis[3];                 // of the hinge, in the chassis' axes
     double turn[WAYS]; // angular velocity and velocity of a chassis that turns about the hinge
     double late;       // [s]
     double lateness;   // [s] that would be too much, of the loop as if it were at once
@@ -95,7 +97,7 @@ static ld_status evaluate_columns(const ld_loop *self, const char *input, double
     ld_status status =
         ld_response_gain(self->response, self->speed, input, &frequency, 1, gain, error);
     for (int i = 0; i < SEEN && !status; i++)
-        seen[i] = gain[i].real + I * gain[i].imaginary;
+        seen[i] = i < self->seen ? gain[i].real + I * gain[i].imaginary : 0;
     return status;
 }
 
@@ -239,8 +241,6 @@ static ld_status find_hinge(ld_loop *self, const ld_model *model, const char *na
 {
     int count = model_hinge_count(model);
     name_suggestion best = suggestion_begin(name);
-    if (count == 0)
-        return ld_fail(error, LD_ERR_INPUT, "there is no loop: the base is not a vehicle");
     for (int i = 0; i < count; i++)
         suggestion_offer(&best, model_hinge_name(model, i));
     for (*hinge = 0; *hinge < count && strcmp(model_hinge_name(model, *hinge), name) != 0;)
@@ -256,6 +256,29 @@ static ld_status find_hinge(ld_loop *self, const ld_model *model, const char *na
         return ld_fail(error, LD_ERR_INPUT,
                        "platform.%s.lock: there is no loop: the hinge is locked", name);
     self->stabiliser = &turret->stabiliser;
+    snprintf(self->path, sizeof self->path, "platform.%.60s.stabiliser", name);
+    return LD_OK;
+}
+
+// Of a drive on a joint.
+static ld_status find_drive(ld_loop *self, const ld_mechanism *given, const char *name,
+                            ld_error *error)
+{
+    name_suggestion best = suggestion_begin(name);
+    const ld_joint_drive *drive = NULL;
+    for (int i = 0; i < given->drive_count; i++) {
+        suggestion_offer(&best, given->drive[i].name);
+        if (strcmp(given->drive[i].name, name) == 0)
+            drive = &given->drive[i];
+    }
+    if (given->drive_count == 0)
+        return ld_fail(error, LD_ERR_INPUT, "there is no loop: the base has no drives");
+    if (!drive)
+        return ld_fail(error, LD_ERR_INPUT, "unknown drive \"%s\"%s%s%s", name,
+                       best.name ? ", did you mean \"" : "; expected a name of base.drives",
+                       best.name ? best.name : "", best.name ? "\"?" : "");
+    self->stabiliser = drive->form == LD_DRIVE_ANGLE ? &drive->angle : &drive->length;
+    snprintf(self->path, sizeof self->path, "base.drives.%.60s", name);
     return LD_OK;
 }
 
@@ -289,34 +312,56 @@ static ld_status choose_columns(ld_loop *self, const ld_model *model, int hinge,
     snprintf(column, sizeof column, "%s.error", model_hinge_name(model, hinge));
     snprintf(self->command, sizeof self->command, "%s.command", model_hinge_name(model, hinge));
     place_hinge(self, platform, model_hinge(model, hinge) == &platform->azimuth);
+    self->seen = SEEN;
     return ld_response_choose(self->response, names, SEEN, error);
 }
 
-static ld_status check_lateness(const ld_loop *self, const char *hinge, ld_error *error)
+// The rate about the joint stands where that of the chassis along the hinge does.
+static ld_status choose_of_drive(ld_loop *self, const char *name, ld_error *error)
+{
+    enum { OF_DRIVE = 2 };
+    char column[OF_DRIVE][sizeof self->command];
+    const char *const names[OF_DRIVE] = {column[0], column[1]};
+    snprintf(column[0], sizeof column[0], "drive.%.60s.error", name);
+    snprintf(column[1], sizeof column[1], "drive.%.60s.base_rate", name);
+    snprintf(self->command, sizeof self->command, "drive.%.60s.command", name);
+    self->axis[0] = 1;
+    self->seen = OF_DRIVE;
+    return ld_response_choose(self->response, names, OF_DRIVE, error);
+}
+
+static ld_status check_lateness(const ld_loop *self, ld_error *error)
 {
     if (self->margins.delay > 0)
         return LD_OK;
-    return ld_fail(error, LD_ERR_INPUT,
-                   "platform.%s.stabiliser: unstable: delay and half the period are %.3g ms, the "
-                   "loop's delay margin is %.3g ms",
-                   hinge, 1e3 * self->late, 1e3 * self->lateness);
+    return ld_fail(
+        error, LD_ERR_INPUT,
+        "%s: unstable: delay and half the period are %.3g ms, the loop's delay margin is "
+        "%.3g ms",
+        self->path, 1e3 * self->late, 1e3 * self->lateness);
 }
 
 static ld_status build(ld_loop *self, const ld_model *model, const char *name, ld_error *error)
 {
     int hinge = 0;
-    ld_status status = find_hinge(self, model, name, &hinge, error);
+    bool vehicle = model_has_vehicle(model);
+    if (!vehicle && !model_has_multibody(model))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "there is no loop: the base is neither a vehicle nor multibody");
+    ld_status status = vehicle ? find_hinge(self, model, name, &hinge, error)
+                               : find_drive(self, &model_base(model)->mechanism, name, error);
     if (status)
         return status;
-    self->speed = model_base(model)->vehicle.speed;
+    self->speed = vehicle ? model_base(model)->vehicle.speed : 0;
     const ld_stabiliser *given = self->stabiliser;
     self->late = given->sample > 0 ? given->delay + 0.5 * given->sample : 0;
     status = response_create(model, NAN, NAN, false, &self->response, error);
     if (!status)
-        status = choose_columns(self, model, hinge, error);
+        status = vehicle ? choose_columns(self, model, hinge, error)
+                         : choose_of_drive(self, name, error);
     if (!status)
         status = find_margins(self, error);
-    return status ? status : check_lateness(self, name, error);
+    return status ? status : check_lateness(self, error);
 }
 
 ld_status ld_loop_create(const ld_model *model, const char *hinge, ld_loop **loop, ld_error *error)
@@ -433,12 +478,21 @@ ld_status ld_loop_rejection(ld_loop *self, const double *frequency, size_t count
 {
     double complex at;
     ld_status status = LD_OK;
+    if (!ld_loop_has_rejection(self))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "%s: the rejection is that of a vehicle's chassis, the base is multibody",
+                       self->path);
     for (size_t i = 0; i < count && !status; i++) {
         status = evaluate_rejection(self, frequency[i], &at, error);
         if (!status)
             rejection[i] = phasor(at);
     }
     return status;
+}
+
+bool ld_loop_has_rejection(const ld_loop *loop)
+{
+    return loop->seen == SEEN;
 }
 
 void ld_loop_margins_of(const ld_loop *loop, ld_loop_margins *margins)

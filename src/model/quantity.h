@@ -41,8 +41,12 @@ typedef enum quantity_each {
     EACH_BEAM_COORDINATE, // modal
     EACH_CARRIER,         // where something stands on it
     EACH_JOINT,
-    EACH_TURN,   // joint that turns about one axis
-    EACH_SLIDER, // joint that slides along one
+    EACH_TURN,     // joint that turns about one axis
+    EACH_SLIDER,   // joint that slides along one
+    EACH_CYLINDER, // joint by kind: cylindrical, universal, planar, spherical
+    EACH_UNIVERSAL,
+    EACH_PLANE,
+    EACH_BALL,
     EACH_DRIVE,
     EACH_STRUT,
     EACH_FOOT,

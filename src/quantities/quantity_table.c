@@ -12,6 +12,12 @@
 #include "model/blocks/vehicle.h"
 #include "model/parts.h"
 
+// The first name of the joints of a kind.
+static const char *joints_of(const ld_mechanism *parts, ld_joint_kind kind)
+{
+    return parts->joint_name[0] + (size_t)parts->named[kind].first * sizeof parts->joint_name[0];
+}
+
 quantity_things quantity_things_of(const ld_model *model)
 {
     static const char hinges[2][16] = {"azimuth", "elevation"};
@@ -46,8 +52,12 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_BEAM_COORDINATE] = multibody ? mechanism_beam_coordinates(parts) : 0,
                   [EACH_CARRIER] = multibody && mechanism_has_carrier(parts),
                   [EACH_JOINT] = multibody ? parts->joint_count : 0,
-                  [EACH_TURN] = multibody ? parts->turns.count : 0,
-                  [EACH_SLIDER] = multibody ? parts->slides.count : 0,
+                  [EACH_TURN] = multibody ? parts->named[LD_JOINT_REVOLUTE].count : 0,
+                  [EACH_SLIDER] = multibody ? parts->named[LD_JOINT_PRISMATIC].count : 0,
+                  [EACH_CYLINDER] = multibody ? parts->named[LD_JOINT_CYLINDRICAL].count : 0,
+                  [EACH_UNIVERSAL] = multibody ? parts->named[LD_JOINT_UNIVERSAL].count : 0,
+                  [EACH_PLANE] = multibody ? parts->named[LD_JOINT_PLANAR].count : 0,
+                  [EACH_BALL] = multibody ? parts->named[LD_JOINT_SPHERICAL].count : 0,
                   [EACH_DRIVE] = multibody ? parts->drive_count : 0,
                   [EACH_STRUT] = multibody ? parts->strut_count : 0,
                   [EACH_FOOT] = multibody ? parts->foot_count : 0,
@@ -64,8 +74,12 @@ quantity_things quantity_things_of(const ld_model *model)
                  [EACH_BODY] = parts->body[0].name,
                  [EACH_BEAM] = parts->beam[0].name,
                  [EACH_JOINT] = parts->joint[0].name,
-                 [EACH_TURN] = parts->turns.name[0],
-                 [EACH_SLIDER] = parts->slides.name[0],
+                 [EACH_TURN] = joints_of(parts, LD_JOINT_REVOLUTE),
+                 [EACH_SLIDER] = joints_of(parts, LD_JOINT_PRISMATIC),
+                 [EACH_CYLINDER] = joints_of(parts, LD_JOINT_CYLINDRICAL),
+                 [EACH_UNIVERSAL] = joints_of(parts, LD_JOINT_UNIVERSAL),
+                 [EACH_PLANE] = joints_of(parts, LD_JOINT_PLANAR),
+                 [EACH_BALL] = joints_of(parts, LD_JOINT_SPHERICAL),
                  [EACH_DRIVE] = parts->drive[0].name,
                  [EACH_STRUT] = parts->strut[0].name,
                  [EACH_FOOT] = parts->foot[0].name,
@@ -80,8 +94,12 @@ quantity_things quantity_things_of(const ld_model *model)
                    [EACH_BODY] = sizeof parts->body[0],
                    [EACH_BEAM] = sizeof parts->beam[0],
                    [EACH_JOINT] = sizeof parts->joint[0],
-                   [EACH_TURN] = sizeof parts->turns.name[0],
-                   [EACH_SLIDER] = sizeof parts->slides.name[0],
+                   [EACH_TURN] = sizeof parts->joint_name[0],
+                   [EACH_SLIDER] = sizeof parts->joint_name[0],
+                   [EACH_CYLINDER] = sizeof parts->joint_name[0],
+                   [EACH_UNIVERSAL] = sizeof parts->joint_name[0],
+                   [EACH_PLANE] = sizeof parts->joint_name[0],
+                   [EACH_BALL] = sizeof parts->joint_name[0],
                    [EACH_DRIVE] = sizeof parts->drive[0],
                    [EACH_STRUT] = sizeof parts->strut[0],
                    [EACH_FOOT] = sizeof parts->foot[0],

@@ -154,17 +154,17 @@ static const quantity held[] = {
 };
 #define DRIVEN(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, drive, member)
 static const quantity driven[] = {
-    {"drive.%s.error_rms", "1", "drive %s: command minus measured [rad] or [m], rms", DRIVEN(error_rms), LINE("drive %s error", "mrad or mm, rms", MILLI, 4)},
-    {"drive.%s.torque_rms", "1", "drive %s: torque [N m] or force [N] of drive or lock, rms", DRIVEN(torque_rms), LINE("drive %s torque", "N m or N, rms and peak", 1, 1)},
-    {"drive.%s.torque_peak", "1", "drive %s: its largest magnitude", DRIVEN(torque_peak), .from_zero = true, BESIDE(1)},
-    {"drive.%s.saturated", "s", "drive %s: time at the limit", DRIVEN(saturated), .from_zero = true, NONZERO("drive %s saturated", "ms", MILLI, 3)},
-    {"drive.%s.power_mean", "W", "drive %s: magnitude of torque times rate, mean", DRIVEN(power_mean)},
-    {"drive.%s.power_peak", "W", "drive %s: magnitude of torque times rate, largest", DRIVEN(power_peak), .from_zero = true},
+    {"drive.%s.error_rms", "1", "drive %s: command minus measured [rad] or [m], rms", DRIVEN(error_rms), KEPT, LINE("drive %s error", "mrad or mm, rms", MILLI, 4)},
+    {"drive.%s.torque_rms", "1", "drive %s: torque [N m] or force [N] of drive or lock, rms", DRIVEN(torque_rms), KEPT, LINE("drive %s torque", "N m or N, rms and peak", 1, 1)},
+    {"drive.%s.torque_peak", "1", "drive %s: its largest magnitude", DRIVEN(torque_peak), KEPT, .from_zero = true, BESIDE(1)},
+    {"drive.%s.saturated", "s", "drive %s: time at the limit", DRIVEN(saturated), KEPT, .from_zero = true, NONZERO("drive %s saturated", "ms", MILLI, 3)},
+    {"drive.%s.power_mean", "W", "drive %s: magnitude of torque times rate, mean", DRIVEN(power_mean), KEPT},
+    {"drive.%s.power_peak", "W", "drive %s: magnitude of torque times rate, largest", DRIVEN(power_peak), KEPT, .from_zero = true},
 };
 #define STANDING(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, foot, member)
 static const quantity standing[] = {
-    {"foot.%s.force_peak", "N", "foot %s: largest vertical force", STANDING(force_peak), LINE("foot %s force", "N, largest and least", 1, 1)},
-    {"foot.%s.force_least", "N", "foot %s: least vertical force; 0: it lifted", STANDING(force_least), BESIDE(1)},
+    {"foot.%s.force_peak", "N", "foot %s: largest vertical force", STANDING(force_peak), KEPT, LINE("foot %s force", "N, largest and least", 1, 1)},
+    {"foot.%s.force_least", "N", "foot %s: least vertical force; 0: it lifted", STANDING(force_least), KEPT, BESIDE(1)},
 };
 static const quantity change[] = {
     {"energy_dropped", "J", "kinetic energy lost at the change to its tube; 0 for the first", ROCKET(energy_dropped), .from_zero = true, NONZERO("dropped at tube change", "J", 1, 4)},

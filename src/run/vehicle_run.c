@@ -16,6 +16,7 @@
 #include "state/equilibrium.h"
 #include "state/evaluation.h"
 #include "state/launch_state.h"
+#include "systems/bases/mechanism_base.h"
 
 enum { MOST_STATES = BASE_MOST_STATES + BASE_MOST_WORKS + 1 };
 
@@ -108,10 +109,17 @@ static int events(double t, const double *y, double *g, void *user)
 
 // ---- begin ----
 
+// Whether the base has a motion of its own.
+static bool moves_alone(const ld_model *model)
+{
+    return model_has_vehicle(model) || model_has_multibody(model);
+}
+
 static ld_status check_model(const ld_model *model, ld_error *error)
 {
-    if (!model_has_vehicle(model))
-        return ld_fail(error, LD_ERR_INPUT, "base.kind: a vehicle-only run requires kind: vehicle");
+    if (!moves_alone(model))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "base.kind: a vehicle-only run requires kind: vehicle or multibody");
     if (model_firing_count(model) > 1)
         return ld_fail(error, LD_ERR_INPUT,
                        "firing: found %d rockets, expected 1 in a vehicle-only run",
@@ -123,14 +131,21 @@ static ld_status check_model(const ld_model *model, ld_error *error)
     return LD_OK;
 }
 
+static int project(double t, double *y, void *user)
+{
+    const ld_vehicle_run *self = user;
+    self->base.kind->dynamics->project(&self->base, t, y);
+    return 0;
+}
+
 static ld_status create_integrator(ld_vehicle_run *self, ld_error *error)
 {
     const ld_run_settings *run = model_run(self->system->model);
     double atol[MOST_STATES];
     bool absolute[MOST_STATES] = {false};
+    for (int i = 0; i < MOST_STATES; i++)
+        atol[i] = INFINITY; // quadratures and what only changes at instants do not steer the step
     self->base.kind->dynamics->tolerances(&self->base, run->tolerance, atol, absolute);
-    for (int i = self->work_at; i < MOST_STATES; i++)
-        atol[i] = INFINITY; // quadratures do not steer the step
     const integrator_settings settings = {
         .n = (size_t)self->state_count,
         .method = INTEGRATOR_CASH_KARP,
@@ -140,6 +155,7 @@ static ld_status create_integrator(ld_vehicle_run *self, ld_error *error)
         .max_step = run->max_step,
         .rhs = rhs,
         .events = events,
+        .project = self->base.drifts ? project : NULL,
         .event_count = self->base.event_count,
         .self = self,
     };
@@ -161,6 +177,10 @@ static ld_vehicle_run *create(const ld_simulation *simulation, ld_error *error)
     self->work_at = self->base.state_count;
     self->tube_work_at = self->work_at + self->base.work_count;
     self->state_count = self->tube_work_at + 1;
+    if (!status && self->base.kind->stations && mechanism_of(&self->base)->station_count > 0)
+        status = ld_fail(error, LD_ERR_INPUT,
+                         "tubes.on: supports on a beam move separately; a vehicle-only run has the "
+                         "motion of one frame, the tubes on a body");
     if (!status)
         status = create_integrator(self, error);
     if (!status)
@@ -395,9 +415,12 @@ static const quantity clock[] = {
 };
 static const quantity energies[] = {
     {"energy.kinetic", "J", "kinetic energy of the vehicle", AT(kinetic)},
-    {"energy.elastic", "J", "elastic energy of its suspensions", AT(elastic)},
+    {"energy.elastic", "J", "elastic energy of its suspensions and springs", AT(elastic)},
 };
 static const quantity works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
+#define ROLLING(place, name, is) BASE_WORK(MECHANISM_POWERS + place, name, is)
+static const quantity multibody_works[] = {MECHANISM_WORKS(BASE_WORK)};
+static const quantity rolling_works[] = {MARCHING_WORKS(ROLLING)};
 static const quantity tube_works[] = {
     {"work.tube", "J", "work of the tube on it", AT(tube_work)},
 };
@@ -409,7 +432,9 @@ static const quantity_group clocks[] = {
 };
 static const quantity_group balances[] = {
     {.title = "energy of the vehicle", QUANTITY_ROWS(energies)},
-    {.title = "works since the start", QUANTITY_ROWS(works)},
+    {.title = "works since the start", .each = EACH_VEHICLE, QUANTITY_ROWS(works)},
+    {.title = "works of a multibody base since the start", .each = EACH_MULTIBODY, QUANTITY_ROWS(multibody_works)},
+    {.title = "works of its wheels since the start", .each = EACH_ROLLING, QUANTITY_ROWS(rolling_works)},
     {.title = "work of the tube", QUANTITY_ROWS(tube_works)},
     {.title = "energy balance of the vehicle", QUANTITY_ROWS(balance)},
 };
@@ -420,7 +445,7 @@ const quantity_table vehicle_balance_quantities = {balances, sizeof balances / s
 
 ld_status vehicle_run_name_columns(ld_simulation *self, ld_error *error)
 {
-    if (!model_has_vehicle(self->model))
+    if (!moves_alone(self->model))
         return LD_OK;
     const quantity_things things = quantity_things_of(self->model);
     const quantity_part parts[] = {

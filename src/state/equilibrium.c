@@ -455,7 +455,7 @@ static void report_multibody(const launcher_system *launcher, const launcher_inp
     if (!model_has_multibody(launcher->base.model))
         return;
     base_find(&launcher->base, &input->found, &out->base, y + launcher->base_at, &instant);
-    report_wheels(launcher, &now->marching, summary);
+    report_wheels(launcher, &now->rolling.marching, summary);
     for (int i = 0; i < given->drive_count; i++) {
         summary->drive[i].measured = now->drive[i].measured;
         summary->drive[i].torque = now->drive[i].torque;
@@ -1145,9 +1145,18 @@ static ld_status undeformed_on(launch_state *self, double t, const double *stand
 {
     (void)summary;
     launching_phase phase = resting_phase(self);
-    ld_status status = settle_base(self, t, &phase, stands, y, error);
-    if (!status)
-        status = keep_rest(self, t, y, error);
+    const base_system *base = &self->launcher.base;
+    const base_dynamics *dynamics = base->kind->dynamics;
+    ld_status status = LD_OK;
+    if (dynamics && dynamics->place_as_given) {
+        memset(y, 0, (size_t)self->launcher.state_count * sizeof *y);
+        dynamics->place_as_given(base, y + self->launcher.base_at);
+        dynamics->rest_of(base, y + self->launcher.base_at, &self->rest);
+    } else {
+        status = settle_base(self, t, &phase, stands, y, error);
+        if (!status)
+            status = keep_rest(self, t, y, error);
+    }
     if (status)
         return status;
     launcher_input input;

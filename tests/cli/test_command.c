@@ -595,6 +595,11 @@ static void test_loop(void **state)
                          "grep -xe '-180' -e '-90' -e 90 -e 180"),
                      0);
     assert_string_equal(shell.out, "-180\n-90\n90\n180\n");
+    assert_int_equal(run("launchdyn response examples/multibody/ship-turntable.yaml --loop lift"),
+                     0);
+    expect_in(shell.out, "Loop of the lift; linear about the equilibrium");
+    expect_in(shell.out, "\n  phase                                   82.07 degrees\n");
+    assert_null(strstr(shell.out, "chassis"));
     assert_int_equal(run("launchdyn response examples/reference.yaml --loop azimuth"), 0);
     expect_in(shell.out, "\n  gain margin upwards, factor               any\n");
     expect_in(shell.out, "\n  sensitivity above one                 nowhere\n");
@@ -647,7 +652,11 @@ static void test_response_of_what_is_not_there(void **state)
         {"examples/reference.yaml --friction --loop azimuth",
          "launchdyn: a loop is shown without friction of the hinges\n"},
         {"examples/fixed.yaml --loop azimuth",
-         "launchdyn: there is no loop: the base is not a vehicle\n"},
+         "launchdyn: there is no loop: the base is neither a vehicle nor multibody\n"},
+        {"examples/multibody/ship-turntable.yaml --loop lit",
+         "launchdyn: unknown drive \"lit\", did you mean \"lift\"?\n"},
+        {"examples/multibody/gondola.yaml --loop lift",
+         "launchdyn: there is no loop: the base has no drives\n"},
         {"examples/fixed.yaml",
          "launchdyn: the base is not a vehicle on a road: a response requires the name of an input "
          "(launchdyn response --list lists them)\n"},

@@ -533,7 +533,7 @@ static void refuses(void **state)
 {
     (void)state;
     refused("launchdyn fmu export examples/fixed.yaml --part vehicle --out x.fmu",
-            "base.kind: a vehicle-only run requires kind: vehicle");
+            "base.kind: a vehicle-only run requires kind: vehicle or multibody");
     refused("launchdyn fmu export examples/fixed.yaml --part launcher --out x.fmu",
             "base.kind: a vehicle-only run");
     refused("launchdyn fmu export examples/salvo-marching.yaml --part launcher --out x.fmu",

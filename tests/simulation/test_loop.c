@@ -8,6 +8,7 @@
 #include "state/simulation.h"
 #include "support/check.h"
 #include "support/reference_model.h"
+#include "systems/bases/vehicle_mechanism.h"
 
 static const double two_pi = 6.283185307179586476925, speed = 8;
 
@@ -320,8 +321,6 @@ static void at_its_margins_modes_do_not_decay(void **state)
     reference_model_free(&model);
 }
 
-// ---- what is wrong ----
-
 static void expect(const ld_model *model, const char *hinge, const char *text)
 {
     ld_loop *loop;
@@ -331,12 +330,55 @@ static void expect(const ld_model *model, const char *hinge, const char *text)
     assert_non_null(strstr(error.text, text));
 }
 
+// ---- a drive of a multibody base ----
+
+// The vehicle and the bodies, joints and drives that it is expanded into.
+static void a_drive_is_the_stabiliser(void **state)
+{
+    (void)state;
+    static const char *const hinges[] = {"azimuth", "elevation"};
+    ld_model model, bodies;
+    ld_error error;
+    reference_vehicle(&model, 0);
+    model.platform.azimuth.stabiliser.feedforward = 0.3;
+    model.platform.elevation.stabiliser.feedforward = 0.3;
+    bodies = model;
+    bodies.base.kind = LD_BASE_MULTIBODY;
+    bodies.base.azimuth = bodies.base.elevation = 0;
+    vehicle_describe(&model, &bodies.base.mechanism);
+    snprintf(bodies.tubes.on, sizeof bodies.tubes.on, "elevation platform");
+    double worst = 0;
+    for (int i = 0; i < 2; i++) {
+        ld_loop_margins margins[2];
+        ld_loop *loop[2] = {open_loop(&model, hinges[i], &margins[0]),
+                            open_loop(&bodies, hinges[i], &margins[1])};
+        for (double f = 0.3; f < 100; f *= 1.9) {
+            ld_loop_point at[2];
+            for (int k = 0; k < 2; k++)
+                assert_int_equal(ld_loop_points(loop[k], &f, 1, &at[k], &error), LD_OK);
+            double complex L = number(at[0].open);
+            worst = fmax(worst, cabs(number(at[1].open) - L) / cabs(L));
+        }
+        CHECK_BELOW("phase margin [rad]", margins[1].phase - margins[0].phase, 1e-5);
+        double f = 1;
+        ld_phasor rejection;
+        assert_int_equal(ld_loop_rejection(loop[1], &f, 1, &rejection, &error), LD_ERR_INPUT);
+        for (int k = 0; k < 2; k++)
+            ld_loop_free(loop[k]);
+    }
+    CHECK_BELOW("open loop of a drive against the vehicle's, relative", worst, 1e-5);
+    expect(&bodies, "elevaton", "unknown drive \"elevaton\", did you mean \"elevation\"?");
+    reference_model_free(&model);
+}
+
+// ---- what is wrong ----
+
 static void what_has_no_loop_is_told(void **state)
 {
     (void)state;
     ld_model model;
     reference_model(&model);
-    expect(&model, "elevation", "there is no loop: the base is not a vehicle");
+    expect(&model, "elevation", "there is no loop: the base is neither a vehicle nor multibody");
     reference_model_free(&model);
     reference_vehicle(&model, speed);
     expect(&model, "elevaton", "unknown hinge \"elevaton\", did you mean \"elevation\"?");
@@ -357,6 +399,7 @@ int main(void)
         cmocka_unit_test(what_turns_a_rigid_platform),
         cmocka_unit_test(where_the_hinge_is_does_not_matter),
         cmocka_unit_test(at_its_margins_modes_do_not_decay),
+        cmocka_unit_test(a_drive_is_the_stabiliser),
         cmocka_unit_test(what_has_no_loop_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

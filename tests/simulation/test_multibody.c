@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "launchdyn/response.h"
+#include "math/vectors/mat3.h"
 #include "model/model.h"
 #include "scenario/scenario.h"
 #include "support/recorded_run.h"
@@ -99,6 +100,165 @@ static void a_hinge_closes_a_loop(void **state)
     recorded_run_free(&b);
     model_clear(&tree);
     model_clear(&loop);
+}
+
+// Undeformed, bodies stand where the scenario puts them; in equilibrium they sag first.
+static void starts_as_given(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {"run.start=undeformed"};
+    double angle[2];
+    for (size_t k = 0; k < 2; k++) {
+        ld_model model = read_text(CRADLE MOUNT("ground") PIVOT("") REST, sets, k);
+        recorded_run run;
+        model.firing_count = 1;
+        recorded_run_make(&run, &model);
+        angle[k] = recorded_value(&run, 0, recorded_column(&run, "joint.pivot.angle"));
+        CHECK_BELOW("residual of the energy balance [J]", run.summary.energy.residual, 1e-3);
+        recorded_run_free(&run);
+        model_clear(&model);
+    }
+    CHECK_WITHIN("sag in equilibrium [rad]", -angle[0], 1e-4, 1e-1);
+    CHECK_BELOW("angle at an undeformed start [rad]", angle[1], 0);
+}
+
+// ---- joints of several coordinates
+
+// A joint between ground and frame, of the tree or, where the frame hangs on a free joint, in a
+// loop.
+#define SEVERAL(kind, more, tree)                                                                  \
+    CRADLE tree                                                                                    \
+        "    - {name: several, kind: " kind ", parent: ground, body: frame, "                      \
+        "at: 0 0.3 0 m" more "}\n" PIVOT(                                                          \
+            "") "  bushings:\n    - {name: held, from: ground, to: frame, at: 0.3 0.3 0.2 m,\n"    \
+                "       stiffness: 4e5 4e5 4e5 N/m, damping: 4e3 4e3 4e3 N.s/m,\n"                 \
+                "       rotational_stiffness: 3e5 3e5 3e5 N.m/rad, rotational_damping: 3e3 3e3 "   \
+                "3e3 "                                                                             \
+                "N.m.s/rad}\n" REST
+#define HANGING "    - {name: loose, kind: free, parent: ground, body: frame, at: 0 0.3 0 m}\n"
+
+static double at_row(const recorded_run *run, size_t row, const char *name)
+{
+    return recorded_value(run, row, recorded_column(run, name));
+}
+
+// Where the frame stands, by its own columns.
+static m3 frame_axes(const recorded_run *run, size_t row)
+{
+    return m3_mul(m3_rotation_y(at_row(run, row, "body.frame.yaw")),
+                  m3_mul(m3_rotation_z(at_row(run, row, "body.frame.pitch")),
+                         m3_rotation_x(at_row(run, row, "body.frame.roll"))));
+}
+
+static v3 frame_vector(const recorded_run *run, size_t row, const char *const names[3])
+{
+    return v3_make(at_row(run, row, names[0]), at_row(run, row, names[1]),
+                   at_row(run, row, names[2]));
+}
+
+static const char *const place_of_frame[] = {"body.frame.x", "body.frame.y", "body.frame.z"};
+static const char *const velocity_of_frame[] = {"body.frame.vx", "body.frame.vy", "body.frame.vz"};
+static const char *const rate_of_frame[] = {"body.frame.wx", "body.frame.wy", "body.frame.wz"};
+
+// The columns of the joint less what the frame's place, attitude and motion say.
+static void about_the_axis(const recorded_run *run, size_t row, v3 axis, double *worst)
+{
+    m3 A = frame_axes(run, row);
+    v3 w = m3_apply(A, frame_vector(run, row, rate_of_frame));
+    v3 spin = v3_make(A.a[2][1] - A.a[1][2], A.a[0][2] - A.a[2][0], A.a[1][0] - A.a[0][1]);
+    double trace = A.a[0][0] + A.a[1][1] + A.a[2][2];
+    double angle = atan2(v3_dot(axis, spin), trace - 1);
+    *worst = fmax(*worst, fabs(at_row(run, row, "joint.several.angle") - angle));
+    *worst = fmax(*worst, fabs(at_row(run, row, "joint.several.rate") - v3_dot(axis, w)));
+}
+
+static void cylindrical(const recorded_run *run, size_t row, double *worst)
+{
+    v3 axis = v3_make(0.6, 0, 0.8), r = frame_vector(run, row, place_of_frame);
+    v3 v = frame_vector(run, row, velocity_of_frame);
+    about_the_axis(run, row, axis, worst);
+    double along = v3_dot(axis, v3_sub(r, v3_make(0, 0.3, 0)));
+    *worst = fmax(*worst, fabs(at_row(run, row, "joint.several.displacement") - along));
+    *worst = fmax(*worst, fabs(at_row(run, row, "joint.several.speed") - v3_dot(axis, v)));
+}
+
+// The directions in the plane are either one's own affair: lengths are compared.
+static void planar(const recorded_run *run, size_t row, double *worst)
+{
+    v3 r = v3_sub(frame_vector(run, row, place_of_frame), v3_make(0, 0.3, 0));
+    v3 v = frame_vector(run, row, velocity_of_frame);
+    about_the_axis(run, row, v3_make(0.6, 0, 0.8), worst);
+    double far = hypot(at_row(run, row, "joint.several.displacement"),
+                       at_row(run, row, "joint.several.displacement_2"));
+    double fast =
+        hypot(at_row(run, row, "joint.several.speed"), at_row(run, row, "joint.several.speed_2"));
+    *worst = fmax(*worst, fmax(fabs(far - v3_norm(r)), fabs(fast - v3_norm(v))));
+}
+
+// R = R_y(first) R_z(second), w = first y + second R_y z.
+static void universal(const recorded_run *run, size_t row, double *worst)
+{
+    m3 A = frame_axes(run, row);
+    double first = at_row(run, row, "joint.several.angle");
+    m3 R = m3_mul(m3_rotation_y(first), m3_rotation_z(at_row(run, row, "joint.several.angle_2")));
+    v3 w = m3_apply(A, frame_vector(run, row, rate_of_frame));
+    v3 z = m3_apply(m3_rotation_y(first), v3_make(0, 0, 1));
+    v3 own = v3_axpy(v3_make(0, at_row(run, row, "joint.several.rate"), 0),
+                     at_row(run, row, "joint.several.rate_2"), z);
+    for (int i = 0; i < 9; i++)
+        *worst = fmax(*worst, fabs(A.a[i / 3][i % 3] - R.a[i / 3][i % 3]));
+    *worst = fmax(*worst, v3_norm(v3_sub(w, own)));
+}
+
+static void spherical(const recorded_run *run, size_t row, double *worst)
+{
+    static const char *const angles[] = {"joint.several.yaw", "joint.several.pitch",
+                                         "joint.several.roll"};
+    static const char *const of_frame[] = {"body.frame.yaw", "body.frame.pitch", "body.frame.roll"};
+    static const char *const rates[] = {"joint.several.wx", "joint.several.wy", "joint.several.wz"};
+    v3 turned = v3_sub(frame_vector(run, row, angles), frame_vector(run, row, of_frame));
+    v3 spins = v3_sub(frame_vector(run, row, rates), frame_vector(run, row, rate_of_frame));
+    *worst = fmax(*worst, fmax(v3_norm(turned), v3_norm(spins)));
+}
+
+// Against the frame's own columns, of the tree and where it closes a loop.
+static void columns_of_joints(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *text[2];
+        void (*check)(const recorded_run *run, size_t row, double *worst);
+    } joint[] = {
+        {"cylindrical",
+         {SEVERAL("cylindrical", ", axis: 0.6 0 0.8", ""),
+          SEVERAL("cylindrical", ", axis: 0.6 0 0.8", HANGING)},
+         cylindrical},
+        {"planar",
+         {SEVERAL("planar", ", axis: 0.6 0 0.8", ""),
+          SEVERAL("planar", ", axis: 0.6 0 0.8", HANGING)},
+         planar},
+        {"universal",
+         {SEVERAL("universal", ", axis: 0 1 0, axis_2: 0 0 1", ""),
+          SEVERAL("universal", ", axis: 0 1 0, axis_2: 0 0 1", HANGING)},
+         universal},
+        {"spherical", {SEVERAL("spherical", "", ""), SEVERAL("spherical", "", HANGING)}, spherical},
+    };
+    for (size_t i = 0; i < sizeof joint / sizeof *joint; i++)
+        for (int k = 0; k < 2; k++) {
+            ld_model model = read_text(joint[i].text[k], NULL, 0);
+            recorded_run run;
+            double worst = 0, moved = 0;
+            model.firing_count = 1;
+            recorded_run_make(&run, &model);
+            for (size_t row = 0; row < run.rows; row++) {
+                joint[i].check(&run, row, &worst);
+                moved = fmax(moved, fabs(at_row(&run, row, "body.frame.pitch")));
+            }
+            printf("    %s, %s, turned by %.2g rad\n", joint[i].name, k ? "loop" : "tree", moved);
+            CHECK_BELOW("its columns against the body's", worst, 1e-14);
+            recorded_run_free(&run);
+            model_clear(&model);
+        }
 }
 
 // On a carrier of constant velocity everything goes as on one at rest.
@@ -394,6 +554,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_hinge_closes_a_loop),
+        cmocka_unit_test(starts_as_given),
+        cmocka_unit_test(columns_of_joints),
         cmocka_unit_test(on_a_moving_carrier),
         cmocka_unit_test(far_from_its_start),
         cmocka_unit_test(in_words),

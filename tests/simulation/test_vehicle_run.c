@@ -5,6 +5,7 @@
 
 #include "launchdyn/vehicle_run.h"
 #include "model/model.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/exit_distance.h"
 #include "support/reference_model.h"
@@ -187,6 +188,50 @@ static void second_order(void **state)
     reference_model_free(&model);
 }
 
+// A boom that a cylinder holds low: joints that close a loop, a drive, a lock that closes on the
+// way.
+static const char *const erector[] = {"run.lead_in=0.1 s", "run.tolerance=1e-9", "run.end=tip",
+                                      "base.drives.lift.length.command=0.24 m",
+                                      "base.joints.pivot.lock.from=-50 ms"};
+// On wheels and jacks, without a loop.
+static const char *const trailer[] = {"run.lead_in=0.1 s", "run.tolerance=1e-9", "run.end=tip"};
+
+static void read_example(const char *name, const char *const *sets, size_t count, ld_model *model)
+{
+    char path[512];
+    ld_messages messages = {0};
+    snprintf(path, sizeof path, LD_SOURCE_DIR "/examples/multibody/%s.yaml", name);
+    if (scenario_read(path, sets, count, model, &messages))
+        fail_msg("%s cannot be read", name);
+}
+
+static void multibody_bases(void **state)
+{
+    (void)state;
+    enum { STEPS = 3 };
+    static const double step[STEPS] = {0.8e-3, 0.4e-3, 0.2e-3};
+    for (int k = 0; k < 2; k++) {
+        ld_model model;
+        read_example(k ? "trailer" : "erector", k ? trailer : erector, k ? 3 : 5, &model);
+        ld_summary all = together(&model);
+        double error = 0, missing[STEPS];
+        for (int i = 0; i < STEPS; i++) {
+            coupled apart = couple(&model, step[i], false);
+            error = exit_distance(&apart.summary, &all);
+            missing[i] = apart.missing / apart.work;
+            printf("    %g ms: attitude and rates %.3g rad/s, of the work that goes over %.3g is "
+                   "missed\n",
+                   1e3 * step[i], error, missing[i]);
+            CHECK_BELOW("the base's own balance [J]", apart.balance, 1e-9);
+        }
+        CHECK_WITHIN("order of the work that goes over, multibody base",
+                     log2(missing[0] / missing[STEPS - 1]) / (STEPS - 1), 1.6, 2.4);
+        CHECK_BELOW("exit attitude and rates at 0.2 ms, multibody base [rad/s]", error,
+                    k ? 6e-5 : 2e-5);
+        model_clear(&model);
+    }
+}
+
 // What is in equilibrium stays there: the wrench at the start is that under which the vehicle
 // rests.
 static void rest_stays(void **state)
@@ -284,7 +329,7 @@ static void refuses(void **state)
     (void)state;
     ld_model model;
     reference_model(&model);
-    refused(&model, "base.kind: a vehicle-only run requires kind: vehicle");
+    refused(&model, "base.kind: a vehicle-only run requires kind: vehicle or multibody");
     reference_model_free(&model);
     reference_vehicle(&model, 0);
     ld_error error;
@@ -311,9 +356,9 @@ static void refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(second_order), cmocka_unit_test(rest_stays),
-        cmocka_unit_test(digital_loop), cmocka_unit_test(saved_and_loaded),
-        cmocka_unit_test(refuses),
+        cmocka_unit_test(second_order),     cmocka_unit_test(multibody_bases),
+        cmocka_unit_test(rest_stays),       cmocka_unit_test(digital_loop),
+        cmocka_unit_test(saved_and_loaded), cmocka_unit_test(refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

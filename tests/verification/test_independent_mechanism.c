@@ -134,17 +134,17 @@ static void compare_joints(const mechanism_system *own, const mechanism_motion *
         size = fmax(size, fmax(v3_norm(out->joint[i].force), v3_norm(out->joint[i].moment)));
     for (int i = 0; i < given->joint_count; i++) {
         bool turns = given->joint[i].kind == LD_JOINT_REVOLUTE;
-        double x[2];
+        double x[JOINT_MOST_COORDINATES], rate[JOINT_MOST_SPEEDS];
         if (out->redundant == 0) {
             note(&worst->loads, differ_v3(load[i].force, out->joint[i].force, size));
             note(&worst->loads, differ_v3(load[i].moment, out->joint[i].moment, size));
         }
         if (!turns && given->joint[i].kind != LD_JOINT_PRISMATIC)
             continue;
-        mechanism_joint_state(own, motion, i, x);
+        mechanism_joint_state(own, motion, i, x, rate);
         double apart = x[0] - out->joint[i].position[turns];
         note(&worst->joints, differ(0, turns ? remainder(apart, TWO_PI) : apart, 1));
-        note(&worst->joints, differ(x[1], out->joint[i].rate[turns], 1));
+        note(&worst->joints, differ(rate[0], out->joint[i].rate[turns], 1));
     }
 }
 

@@ -78,6 +78,7 @@ typedef enum ld_joint_kind {
     LD_JOINT_PLANAR,
     LD_JOINT_FREE,
 } ld_joint_kind;
+enum { LD_JOINT_KINDS = LD_JOINT_FREE + 1 };
 
 /// One-sided springs where a joint's coordinate leaves a range; NaN: no stop there.
 typedef struct ld_joint_stops {
@@ -194,10 +195,9 @@ typedef struct ld_body_drag {
     double area[3]; ///< [m2] drag coefficient times area along x, y, z of the body
 } ld_body_drag;
 
-/// Names of joints of a kind, in their order.
+/// Where the names of the joints of a kind stand among `joint_name`.
 typedef struct ld_joint_names {
-    int count;
-    char name[LD_MAX_JOINTS][LD_MAX_NAME];
+    int first, count;
 } ld_joint_names;
 
 typedef struct ld_mechanism {
@@ -219,8 +219,9 @@ typedef struct ld_mechanism {
     ld_point_load load[LD_MAX_LOADS];
     int drag_count;
     ld_body_drag drag[LD_MAX_DRAGS];
-    char wheels_on[LD_MAX_NAME];  ///< body whose axes the wheels' mounts are in
-    ld_joint_names turns, slides; ///< joints about and along one axis; model_complete() lists them
+    char wheels_on[LD_MAX_NAME];                 ///< body whose axes the wheels' mounts are in
+    ld_joint_names named[LD_JOINT_KINDS];        ///< by kind; model_complete() lists them
+    char joint_name[LD_MAX_JOINTS][LD_MAX_NAME]; ///< kind by kind, each in its order
 } ld_mechanism;
 
 /// Whom a point belongs to, where it is not a body.

@@ -129,17 +129,17 @@ static void complete_run(ld_model *model)
     complete_number(&run->max_step, longest_step(run->tolerance), &model->completed.max_step);
 }
 
-// Joints with one axis by kind, and the stiffnesses of beams.
+// Joints by kind, and the stiffnesses of beams.
 static void complete_mechanism(ld_mechanism *mechanism)
 {
-    mechanism->turns.count = mechanism->slides.count = 0;
-    for (int i = 0; i < mechanism->joint_count; i++) {
-        const ld_joint *joint = &mechanism->joint[i];
-        ld_joint_names *names = joint->kind == LD_JOINT_REVOLUTE    ? &mechanism->turns
-                                : joint->kind == LD_JOINT_PRISMATIC ? &mechanism->slides
-                                                                    : NULL;
-        if (names)
-            memcpy(names->name[names->count++], joint->name, sizeof joint->name);
+    int names = 0;
+    for (int kind = 0; kind < LD_JOINT_KINDS; kind++) {
+        mechanism->named[kind].first = names;
+        for (int i = 0; i < mechanism->joint_count; i++)
+            if ((int)mechanism->joint[i].kind == kind)
+                memcpy(mechanism->joint_name[names++], mechanism->joint[i].name,
+                       sizeof mechanism->joint[i].name);
+        mechanism->named[kind].count = names - mechanism->named[kind].first;
     }
     for (int i = 0; i < mechanism->beam_count; i++)
         for (int k = 0; k < mechanism->beam[i].section_count; k++)

@@ -92,11 +92,20 @@ typedef struct axis_instant {
     double friction; // [N m], [N]
 } axis_instant;
 
+// A joint of several coordinates, in the order of the multibody system (launchdyn/mstmm.h).
+typedef struct joint_instant {
+    double q[JOINT_MOST_COORDINATES], u[JOINT_MOST_SPEEDS];
+    double angles[3]; // [rad] yaw, pitch, roll of a spherical one
+} joint_instant;
+
 // What the quantities of a mechanism are about.
 typedef struct multibody_instant {
+    rolling_instant rolling; // first, as of a vehicle
     body_instant body[LD_MAX_BODIES], beam[LD_MAX_BEAMS], carrier;
     double coordinate[LD_MAX_BEAMS * LD_MAX_BEAM_COORDINATES]; // [kg0.5 m]
     axis_instant turn[LD_MAX_JOINTS], slide[LD_MAX_JOINTS];
+    joint_instant cylinder[LD_MAX_JOINTS], universal[LD_MAX_JOINTS], plane[LD_MAX_JOINTS],
+        ball[LD_MAX_JOINTS];
     joint_load joint[LD_MAX_JOINTS];
     hinge_report drive[LD_MAX_DRIVES];
     struct {
@@ -105,10 +114,6 @@ typedef struct multibody_instant {
     } strut[LD_MAX_STRUTS];
     foot_report foot[LD_MAX_FEET];
     v3 bushing[LD_MAX_BUSHINGS];
-    struct {
-        double r[3];
-    } wheel[LD_MAX_WHEELS];
-    marching_output marching;
 } multibody_instant;
 
 // What its quantities stand in.
@@ -168,6 +173,9 @@ typedef struct base_dynamics {
     // Equilibrium: a guess under a tube and a rocket of these masses [kg]; its unknowns; what must
     // vanish; what an equilibrium must fulfil for a run to begin in it; what is kept of it.
     void (*guess)(const base_system *self, double tube, double rocket, double *state);
+    // Where the scenario puts it, at rest, whatever pulls at it (run.start: undeformed). NULL: it
+    // stands in equilibrium then, too.
+    void (*place_as_given)(const base_system *self, double *state);
     void (*displace)(const base_system *self, int freedom, double change, double *state);
     void (*rest_of)(const base_system *self, const double *state, base_rest *rest);
     void (*residual)(const base_system *self, const base_output *output, double *r);

@@ -73,13 +73,15 @@ static ld_status build(base_system *base, ld_error *error)
         return status;
     name_holders(self);
     self->rest = calloc(BASE_MOST_STATES, sizeof *self->rest);
-    if (!self->rest)
+    self->given = calloc(BASE_MOST_STATES, sizeof *self->given);
+    if (!self->rest || !self->given)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's bodies");
     status = begin(base, self->rest, error);
     if (status)
         return status;
     mechanism_base_count(base);
     mechanism_base_mount_wheels(base, self->rest);
+    memcpy(self->given, self->rest, BASE_MOST_STATES * sizeof *self->given);
     status = multibody_rest_find(base, error);
     mechanism_base_count(base);
     return status;
@@ -92,6 +94,12 @@ static void guess(const base_system *self, double tube, double rocket, double *s
     (void)tube, (void)rocket;
     const mechanism_base *own = self->own;
     memcpy(state, own->rest, (size_t)self->state_count * sizeof *state);
+}
+
+static void place_as_given(const base_system *self, double *state)
+{
+    const mechanism_base *own = self->own;
+    memcpy(state, own->given, (size_t)self->state_count * sizeof *state);
 }
 
 static ld_status report_no_rest(const base_system *self, double smallest, ld_error *error)
@@ -184,6 +192,7 @@ static const base_dynamics dynamics = {
     .project = mechanism_base_project,
     .part_of = mechanism_base_part_of,
     .guess = guess,
+    .place_as_given = place_as_given,
     .displace = mechanism_base_displace,
     .rest_of = mechanism_base_rest_of,
     .residual = mechanism_base_residual,
@@ -244,6 +253,34 @@ static const quantity of_slides[] = {
     {"joint.%s.speed", "m/s", "joint %s: rate of the displacement", EACH(slide, state[1])},
     {"joint.%s.resistance", "N", "joint %s: friction", EACH(slide, friction)},
 };
+static const quantity of_cylinders[] = {
+    {"joint.%s.displacement", "m", "joint %s: displacement along its axis", EACH(cylinder, q[0])},
+    {"joint.%s.speed", "m/s", "joint %s: rate of the displacement", EACH(cylinder, u[0])},
+    {"joint.%s.angle", "rad", "joint %s: angle about its axis", EACH(cylinder, q[1])},
+    {"joint.%s.rate", "rad/s", "joint %s: rate of the angle", EACH(cylinder, u[1])},
+};
+static const quantity of_universals[] = {
+    {"joint.%s.angle", "rad", "joint %s: angle about its first axis", EACH(universal, q[0])},
+    {"joint.%s.rate", "rad/s", "joint %s: rate of the angle", EACH(universal, u[0])},
+    {"joint.%s.angle_2", "rad", "joint %s: angle about its second axis", EACH(universal, q[1])},
+    {"joint.%s.rate_2", "rad/s", "joint %s: rate of that angle", EACH(universal, u[1])},
+};
+static const quantity of_planes[] = {
+    {"joint.%s.displacement", "m", "joint %s: displacement in its plane, first direction", EACH(plane, q[0])},
+    {"joint.%s.speed", "m/s", "joint %s: rate of the displacement", EACH(plane, u[0])},
+    {"joint.%s.displacement_2", "m", "joint %s: displacement in its plane, second direction", EACH(plane, q[1])},
+    {"joint.%s.speed_2", "m/s", "joint %s: rate of that displacement", EACH(plane, u[1])},
+    {"joint.%s.angle", "rad", "joint %s: angle about its axis", EACH(plane, q[2])},
+    {"joint.%s.rate", "rad/s", "joint %s: rate of the angle", EACH(plane, u[2])},
+};
+static const quantity of_balls[] = {
+    {"joint.%s.yaw", "rad", "joint %s: yaw of Ry(yaw) Rz(pitch) Rx(roll) against its start, in the joint's axes", EACH(ball, angles[0])},
+    {"joint.%s.pitch", "rad", "joint %s: pitch", EACH(ball, angles[1])},
+    {"joint.%s.roll", "rad", "joint %s: roll", EACH(ball, angles[2])},
+    {"joint.%s.wx", "rad/s", "joint %s: angular velocity of the body against its parent, in the joint's axes on the body", EACH(ball, u[0])},
+    {"joint.%s.wy", "rad/s", "joint %s: its y component", EACH(ball, u[1])},
+    {"joint.%s.wz", "rad/s", "joint %s: its z component", EACH(ball, u[2])},
+};
 static const quantity of_joints[] = {
     {"joint.%s.fx", "N", "joint %s: force on its body along x of I, springs, friction and drives included", EACH(joint, force.x)},
     {"joint.%s.fy", "N", "joint %s: force on its body along y of I", EACH(joint, force.y)},
@@ -257,6 +294,7 @@ static const quantity of_drives[] = {
     {"drive.%s.command", "1", "drive %s: commanded angle [rad] or length [m]", EACH(drive, command)},
     {"drive.%s.error", "1", "drive %s: command minus measured", EACH(drive, error)},
     {"drive.%s.torque", "1", "drive %s: torque [N m] or force [N] of drive or lock", EACH(drive, torque)},
+    {"drive.%s.base_rate", "rad/s", "drive %s: rate of what carries its joint about the joint's axis", EACH(drive, base_rate)},
 };
 static const quantity of_struts[] = {
     {"strut.%s.length", "m", "strut %s: distance of its ends", EACH(strut, spring.length)},
@@ -275,21 +313,6 @@ static const quantity of_bushings[] = {
     {"bushing.%s.fy", "N", "bushing %s: force on `to` along its y", EACH(bushing, y)},
     {"bushing.%s.fz", "N", "bushing %s: force on `to` along its z", EACH(bushing, z)},
 };
-static const quantity of_marching[] = {
-    {"drive.speed", "m/s", "speed of the chassis along its heading", AT(marching.speed)},
-    {"drive.force", "N", "drive force of all driven wheels", AT(marching.drive_force)},
-};
-static const quantity of_wheels[] = {
-    {"wheel.%s.x", "m", "wheel %s: centre in I", EACH(wheel, r[0])},
-    {"wheel.%s.y", "m", "wheel %s: centre in I", EACH(wheel, r[1])},
-    {"wheel.%s.z", "m", "wheel %s: centre in I", EACH(wheel, r[2])},
-    {"wheel.%s.road", "m", "wheel %s: height of the road under it", EACH(marching.wheel, height)},
-    {"wheel.%s.travel", "m", "wheel %s: suspension travel along the chassis' y, from unloaded", EACH(marching.wheel, travel.y)},
-    {"wheel.%s.deflection", "m", "wheel %s: tyre deflection", EACH(marching.wheel, deflection)},
-    {"wheel.%s.tyre_force", "N", "wheel %s: vertical tyre force", EACH(marching.wheel, normal)},
-    {"wheel.%s.along", "N", "wheel %s: tyre force along the way", EACH(marching.wheel, along)},
-    {"wheel.%s.side", "N", "wheel %s: tyre force across the way", EACH(marching.wheel, side)},
-};
 static const quantity_group quantity_groups[] = {
     {.title = "each body", .each = EACH_BODY, QUANTITY_ROWS(of_bodies)},
     {.title = "each beam", .each = EACH_BEAM, QUANTITY_ROWS(of_beams)},
@@ -297,13 +320,17 @@ static const quantity_group quantity_groups[] = {
     {.title = "carrier, where something stands on it", .each = EACH_CARRIER, QUANTITY_ROWS(of_carrier)},
     {.title = "each joint that turns about one axis", .each = EACH_TURN, QUANTITY_ROWS(of_turns)},
     {.title = "each joint that slides along one axis", .each = EACH_SLIDER, QUANTITY_ROWS(of_slides)},
+    {.title = "each cylindrical joint", .each = EACH_CYLINDER, QUANTITY_ROWS(of_cylinders)},
+    {.title = "each universal joint", .each = EACH_UNIVERSAL, QUANTITY_ROWS(of_universals)},
+    {.title = "each planar joint", .each = EACH_PLANE, QUANTITY_ROWS(of_planes)},
+    {.title = "each spherical joint", .each = EACH_BALL, QUANTITY_ROWS(of_balls)},
     {.title = "each joint", .each = EACH_JOINT, QUANTITY_ROWS(of_joints)},
     {.title = "each drive of a joint", .each = EACH_DRIVE, QUANTITY_ROWS(of_drives)},
     {.title = "each strut", .each = EACH_STRUT, QUANTITY_ROWS(of_struts)},
     {.title = "each foot", .each = EACH_FOOT, QUANTITY_ROWS(of_feet)},
     {.title = "each bushing", .each = EACH_BUSHING, QUANTITY_ROWS(of_bushings)},
-    {.title = "drive of a multibody base on wheels", .each = EACH_ROLLING, QUANTITY_ROWS(of_marching)},
-    {.title = "each wheel of a multibody base", .each = EACH_ROLLER, QUANTITY_ROWS(of_wheels)},
+    {.title = "drive of a multibody base on wheels", .each = EACH_ROLLING, QUANTITY_ROWS(rolling_drive_columns)},
+    {.title = "each wheel of a multibody base", .each = EACH_ROLLER, QUANTITY_ROWS(rolling_wheel_columns)},
 };
 // clang-format on
 
@@ -316,6 +343,9 @@ static const quantity_table quantities = {quantity_groups,
 static const quantity roads[] = {
     {"wheel.%s.road", "m", "height of the road under wheel %s", INPUT_OF(road)},
 };
+static const quantity commands[] = {
+    {"drive.%s.command", "1", "drive %s: commanded angle [rad] or length [m]", INPUT_OF(command)},
+};
 static const quantity forces[] = {
     {"platform.force_x", "N", "force on what carries the tube at its rear end, along the tube", INPUT(tube_force.x)},
     {"platform.force_y", "N", "the same upwards from it", INPUT(tube_force.y)},
@@ -327,6 +357,7 @@ static const quantity forces[] = {
 // clang-format on
 static const quantity_group input_groups[] = {
     {.title = "road", .each = EACH_ROLLER, QUANTITY_ROWS(roads)},
+    {.title = "commands", .each = EACH_DRIVE, QUANTITY_ROWS(commands)},
     {.title = "forces", .each = EACH_MULTIBODY, QUANTITY_ROWS(forces)},
 };
 static const quantity_table inputs = {input_groups, sizeof input_groups / sizeof *input_groups};
@@ -356,18 +387,44 @@ static void find_element(const mechanism_system *self, int element, body_instant
     find_body(&from, to);
 }
 
-// Joints with one axis, those that turn and those that slide each in their order.
+// A joint with one axis.
+static void find_axis(const mechanism_system *self, const mechanism_motion *motion, int joint,
+                      double friction, axis_instant *to)
+{
+    double q[JOINT_MOST_COORDINATES], u[JOINT_MOST_SPEEDS];
+    mechanism_joint_state(self, motion, joint, q, u);
+    *to = (axis_instant){.state = {q[0], u[0]}, .friction = friction};
+}
+
+// A joint with several coordinates.
+static void find_joint(const mechanism_system *self, const mechanism_motion *motion, int joint,
+                       joint_instant *to)
+{
+    mechanism_joint_state(self, motion, joint, to->q, to->u);
+    if (self->given->joint[joint].kind != LD_JOINT_SPHERICAL)
+        return;
+    m3 A = q_matrix(q_from(to->q));
+    m3_yaw_pitch_roll(&A, to->angles);
+}
+
+// Joints by kind, each in their order.
 static void find_joints(const mechanism_system *self, const mechanism_motion *motion,
                         const mechanism_report *report, multibody_instant *now)
 {
-    int turns = 0, slides = 0;
+    axis_instant *turn = now->turn, *slide = now->slide;
+    joint_instant *several[] = {[LD_JOINT_CYLINDRICAL] = now->cylinder,
+                                [LD_JOINT_UNIVERSAL] = now->universal,
+                                [LD_JOINT_PLANAR] = now->plane,
+                                [LD_JOINT_SPHERICAL] = now->ball,
+                                [LD_JOINT_FREE] = NULL};
     for (int i = 0; i < self->given->joint_count; i++) {
         ld_joint_kind kind = self->given->joint[i].kind;
-        if (kind != LD_JOINT_REVOLUTE && kind != LD_JOINT_PRISMATIC)
-            continue;
-        axis_instant *to = kind == LD_JOINT_REVOLUTE ? &now->turn[turns++] : &now->slide[slides++];
-        mechanism_joint_state(self, motion, i, to->state);
-        to->friction = report->friction[i];
+        if (kind == LD_JOINT_REVOLUTE)
+            find_axis(self, motion, i, report->friction[i], turn++);
+        else if (kind == LD_JOINT_PRISMATIC)
+            find_axis(self, motion, i, report->friction[i], slide++);
+        else if (several[kind])
+            find_joint(self, motion, i, several[kind]++);
     }
 }
 
@@ -392,7 +449,6 @@ static void fill_instant(const base_system *base, const base_found *found,
     const ld_mechanism *given = self->given;
     const mechanism_report *of = &output->report.mechanism.report;
     multibody_instant *now = &instant->multibody;
-    const double *wheel = state + mechanism_base_marching_at(base);
     mechanism_stand(self, &found->mechanism);
     for (int i = 0; i < given->body_count; i++)
         find_element(self, i, &now->body[i]);
@@ -412,9 +468,7 @@ static void fill_instant(const base_system *base, const base_found *found,
             now->strut[self->hold[i].strut].push = of->hold[i].torque;
     memcpy(now->foot, of->foot, sizeof now->foot);
     memcpy(now->bushing, of->bushing, sizeof now->bushing);
-    for (int j = 0; j < base->model->base.vehicle.wheel_count; j++)
-        memcpy(now->wheel[j].r, wheel + j * WHEEL_STATES + WHEEL_R, sizeof now->wheel[j].r);
-    now->marching = output->report.marching;
+    mechanism_base_fill_rolling(base, output, state, &now->rolling);
 }
 
 static void describe(const base_system *base, FILE *stream)

@@ -277,29 +277,14 @@ static const quantity of_hinges[] = {
     {"%s.torque", "N.m", "%s: torque of stabiliser or lock", EACH(hinge, torque)},
     {"%s.friction", "N.m", "%s: friction in the hinge", EACH(hinge, friction)},
 };
-static const quantity of_drive[] = {
-    {"drive.speed", "m/s", "speed of the chassis along its heading", AT(marching.speed)},
-    {"drive.force", "N", "drive force of all driven wheels", AT(marching.drive_force)},
-};
-static const quantity of_wheels[] = {
-    {"wheel.%s.x", "m", "wheel %s: centre in I", EACH(wheel, r[0])},
-    {"wheel.%s.y", "m", "wheel %s: centre in I", EACH(wheel, r[1])},
-    {"wheel.%s.z", "m", "wheel %s: centre in I", EACH(wheel, r[2])},
-    {"wheel.%s.road", "m", "wheel %s: height of the road under it", EACH(marching.wheel, height)},
-    {"wheel.%s.travel", "m", "wheel %s: suspension travel along the chassis' y, from unloaded", EACH(marching.wheel, travel.y)},
-    {"wheel.%s.deflection", "m", "wheel %s: tyre deflection", EACH(marching.wheel, deflection)},
-    {"wheel.%s.tyre_force", "N", "wheel %s: vertical tyre force", EACH(marching.wheel, normal)},
-    {"wheel.%s.along", "N", "wheel %s: longitudinal tyre force", EACH(marching.wheel, along)},
-    {"wheel.%s.side", "N", "wheel %s: lateral tyre force", EACH(marching.wheel, side)},
-};
 static const quantity of_jets[] = {
     {"jet.force", "N", "force on the elevation platform by the jets of rockets that have left, along -x of T", AT(jet)},
 };
 static const quantity_group quantity_groups[] = {
     {.title = "chassis of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_chassis)},
     {.title = "each hinge of a vehicle", .each = EACH_HINGE, QUANTITY_ROWS(of_hinges)},
-    {.title = "drive of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_drive)},
-    {.title = "each wheel of a vehicle", .each = EACH_WHEEL, QUANTITY_ROWS(of_wheels)},
+    {.title = "drive of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(rolling_drive_columns)},
+    {.title = "each wheel of a vehicle", .each = EACH_WHEEL, QUANTITY_ROWS(rolling_wheel_columns)},
     {.title = "jets on its platform", .each = EACH_JET, QUANTITY_ROWS(of_jets)},
 };
 // clang-format on
@@ -344,17 +329,14 @@ static void fill_instant(const base_system *base, const base_found *found,
     const mechanism_system *self = mechanism_of(base);
     const mechanism_report *report = &output->report.mechanism.report;
     vehicle_instant *now = &instant->vehicle;
-    const double *wheel = state + mechanism_base_marching_at(base);
     memcpy(now->chassis.r, state + VEHICLE_R, sizeof now->chassis.r);
     memcpy(now->chassis.u, state + self->q_count, sizeof now->chassis.u);
     m3_yaw_pitch_roll(&found->mechanism.body[self->wheels].A, now->chassis.angles);
-    for (int j = 0; j < marching_of(base)->wheel_count; j++)
-        memcpy(now->wheel[j].r, wheel + j * WHEEL_STATES + WHEEL_R, sizeof now->wheel[j].r);
     for (int i = 0; i < self->hold_count; i++) {
         now->hinge[i] = report->hold[i];
         now->hinge[i].friction = report->friction[self->hold[i].joint];
     }
-    now->marching = output->report.marching;
+    mechanism_base_fill_rolling(base, output, state, &now->rolling);
     now->jet = output->report.jet;
 }
 

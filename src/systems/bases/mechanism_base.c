@@ -173,6 +173,7 @@ void mechanism_base_free(base_system *base)
             wind_free(&self->wind);
         }
         free(self->rest);
+        free(self->given);
         free(self->made);
     }
     free(self->of_tube);
@@ -535,4 +536,36 @@ double mechanism_base_held_by(const base_system *self, const base_output *output
 {
     int hold = hold_of(mechanism_of(self), displacement);
     return hold < 0 ? 0 : output->report.mechanism.report.hold[hold].torque;
+}
+
+// ---- columns
+
+#define AT(member) .at = QUANTITY_AT(rolling_instant, member)
+#define EACH(array, member) .at = QUANTITY_OF_EACH(rolling_instant, array, member)
+
+// clang-format off
+const quantity rolling_drive_columns[] = {
+    {"drive.speed", "m/s", "speed of the chassis along its heading", AT(marching.speed)},
+    {"drive.force", "N", "drive force of all driven wheels", AT(marching.drive_force)},
+};
+const quantity rolling_wheel_columns[] = {
+    {"wheel.%s.x", "m", "wheel %s: centre in I", EACH(wheel, r[0])},
+    {"wheel.%s.y", "m", "wheel %s: centre in I", EACH(wheel, r[1])},
+    {"wheel.%s.z", "m", "wheel %s: centre in I", EACH(wheel, r[2])},
+    {"wheel.%s.road", "m", "wheel %s: height of the road under it", EACH(marching.wheel, height)},
+    {"wheel.%s.travel", "m", "wheel %s: suspension travel along the chassis' y, from unloaded", EACH(marching.wheel, travel.y)},
+    {"wheel.%s.deflection", "m", "wheel %s: tyre deflection", EACH(marching.wheel, deflection)},
+    {"wheel.%s.tyre_force", "N", "wheel %s: vertical tyre force", EACH(marching.wheel, normal)},
+    {"wheel.%s.along", "N", "wheel %s: longitudinal tyre force", EACH(marching.wheel, along)},
+    {"wheel.%s.side", "N", "wheel %s: lateral tyre force", EACH(marching.wheel, side)},
+};
+// clang-format on
+
+void mechanism_base_fill_rolling(const base_system *base, const base_output *output,
+                                 const double *state, rolling_instant *now)
+{
+    const double *wheel = state + mechanism_base_marching_at(base);
+    for (int j = 0; j < base->model->base.vehicle.wheel_count; j++)
+        memcpy(now->wheel[j].r, wheel + j * WHEEL_STATES + WHEEL_R, sizeof now->wheel[j].r);
+    now->marching = output->report.marching;
 }

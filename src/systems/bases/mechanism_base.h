@@ -35,6 +35,7 @@ typedef struct mechanism_base {
     wind wind;
     // its equilibrium under a tube as a dead load, near which the exact one is looked for; NULL
     double *rest;
+    double *given;                      // where the scenario puts its bodies; NULL
     int freedom_count;                  // displacements that are unknown in an equilibrium,
     int freedom[MECHANISM_MOST_SPEEDS]; // by their places among the mechanism's freedoms
     int falling;                        // speed along which nothing holds it; -1: none
@@ -63,6 +64,13 @@ void mechanism_base_mount_wheels(const base_system *base, double *state);
 // LD_ERR_INPUT for a wheel that does not reach the road in an equilibrium.
 ld_status mechanism_base_check_wheels(const base_system *self, const base_found *found,
                                       const double *state, ld_error *error);
+
+// ---- columns of wheels and drive; their instant is the first member of the base's
+
+extern const quantity rolling_drive_columns[2], rolling_wheel_columns[9];
+
+void mechanism_base_fill_rolling(const base_system *base, const base_output *output,
+                                 const double *state, rolling_instant *now);
 
 // ---- functions of a base's interface and dynamics
 

@@ -53,17 +53,22 @@ typedef struct jet_wrench {
 // Its power [W], T moving as `tube` says.
 double jet_power(const jet_wrench *jet, const base_frame *tube);
 
+// Wheels and drive as their columns have them, of a vehicle or a multibody base.
+typedef struct rolling_instant {
+    struct {
+        double r[3];
+    } wheel[LD_MAX_WHEELS];
+    marching_output marching;
+} rolling_instant;
+
 // What its quantities are about.
 typedef struct vehicle_instant {
+    rolling_instant rolling; // first, as of a multibody base
     struct {
         double r[3], u[6]; // place, velocity and rate
         double angles[3];  // yaw, pitch, roll
     } chassis;
-    struct {
-        double r[3];
-    } wheel[LD_MAX_WHEELS];
     hinge_report hinge[HINGES];
-    marching_output marching;
     double jet; // [N] of all jets, along -x of T
 } vehicle_instant;
 

@@ -28,16 +28,24 @@ void mechanism_joint_loads(const mechanism_system *self, const mechanism_motion 
 }
 
 void mechanism_joint_state(const mechanism_system *self, const mechanism_motion *motion, int joint,
-                           double state[2])
+                           double q[JOINT_MOST_COORDINATES], double u[JOINT_MOST_SPEEDS])
 {
+    static const struct {
+        int q, u;
+    } count[] = {
+        [LD_JOINT_FIXED] = {0, 0},     [LD_JOINT_REVOLUTE] = {1, 1},
+        [LD_JOINT_PRISMATIC] = {1, 1}, [LD_JOINT_CYLINDRICAL] = {2, 2},
+        [LD_JOINT_UNIVERSAL] = {2, 2}, [LD_JOINT_SPHERICAL] = {4, 3},
+        [LD_JOINT_PLANAR] = {3, 3},    [LD_JOINT_FREE] = {7, 6},
+    };
     int element = self->joint_element[joint];
-    double x[7], v[6];
+    ld_joint_kind kind = self->given->joint[joint].kind;
     if (element < 0) {
-        ld_mstmm_loop_state(self->chain, motion->q, motion->u, self->joint_loop[joint], x, v);
-        state[0] = x[0];
-        state[1] = v[0];
-    } else {
-        state[0] = motion->q[ld_mstmm_coordinate_offset(self->chain, element)];
-        state[1] = motion->u[ld_mstmm_speed_offset(self->chain, element)];
+        ld_mstmm_loop_state(self->chain, motion->q, motion->u, self->joint_loop[joint], q, u);
+        return;
     }
+    memcpy(q, motion->q + ld_mstmm_coordinate_offset(self->chain, element),
+           (size_t)count[kind].q * sizeof *q);
+    memcpy(u, motion->u + ld_mstmm_speed_offset(self->chain, element),
+           (size_t)count[kind].u * sizeof *u);
 }

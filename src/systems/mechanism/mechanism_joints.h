@@ -16,9 +16,11 @@ void mechanism_joint_loads(const mechanism_system *self, const mechanism_motion 
                            const double *state_dot, const mechanism_output *output,
                            joint_load load[LD_MAX_JOINTS]);
 
-// Coordinate and its rate of a joint with one axis: [rad], [rad/s] or [m], [m/s]; an angle that
+enum { JOINT_MOST_COORDINATES = 7, JOINT_MOST_SPEEDS = 6 };
+
+// Coordinates and speeds of a joint, as many as it has: [rad], [rad/s] or [m], [m/s]; an angle that
 // closes a loop within pi.
 void mechanism_joint_state(const mechanism_system *self, const mechanism_motion *motion, int joint,
-                           double state[2]);
+                           double q[JOINT_MOST_COORDINATES], double u[JOINT_MOST_SPEEDS]);
 
 #endif
