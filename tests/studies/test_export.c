@@ -314,7 +314,7 @@ static void test_show_without_scatter(void **state)
                               "1 of 6 samples, 0 failed\n"
                               "every result has one value\n"
                               "\n"
-                              "yaw [rad]                  0\n"
+                              "yaw [deg]                  0\n"
                               "downrange [m]              8641.03\n");
     free(text);
     text = shown_of("points", NULL);
@@ -330,7 +330,7 @@ static void test_show_without_scatter(void **state)
               "All points\n"
               "\n"
               "rocket.mass                60 kg                  61 kg                 \n"
-              "yaw [rad]                  0.5                    0.25                  \n"
+              "yaw [deg]                  28.6479                14.3239               \n"
               "downrange [m]              8641.5                 8565.25               \n");
     free(text);
 }

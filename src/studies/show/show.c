@@ -70,25 +70,26 @@ static void print_statistics(const shown *self, const group_statistics *of)
     fprintf(stream, "\n%-*s %-25s %-33s %8s %11s %11s\n", width, "", "mean", "standard deviation",
             "skewness", "least", "greatest");
     for (int i = 0; i < self->count; i++) {
-        const group_statistics *s = &of[i];
-        if (s->count == 0)
+        const group_statistics s = show_in_unit(&of[i], self->column[i]);
+        if (s.count == 0)
             continue;
-        show_name(stream, width, self->column[i]->name, self->column[i]->unit);
-        show_half(stream, 25, &s->mean, 6);
-        show_estimate(stream, 33, &s->deviation, NAN);
-        show_number(stream, 8, s->skewness, 3);
-        show_number(stream, 11, s->least, show_digits(s->least, s->deviation.value, 6));
-        show_number(stream, 11, s->greatest, show_digits(s->greatest, s->deviation.value, 6));
+        show_result(stream, width, self->column[i]);
+        show_half(stream, 25, &s.mean, 6);
+        show_estimate(stream, 33, &s.deviation, NAN);
+        show_number(stream, 8, s.skewness, 3);
+        show_number(stream, 11, s.least, show_digits(s.least, s.deviation.value, 6));
+        show_number(stream, 11, s.greatest, show_digits(s.greatest, s.deviation.value, 6));
         fputc('\n', stream);
     }
     fprintf(stream, "\n%-*s %-30s %-30s %s\n", width, "", "5 %", "median", "95 %");
     for (int i = 0; i < self->count; i++) {
-        if (of[i].count == 0)
+        const group_statistics s = show_in_unit(&of[i], self->column[i]);
+        if (s.count == 0)
             continue;
-        show_name(stream, width, self->column[i]->name, self->column[i]->unit);
+        show_result(stream, width, self->column[i]);
         for (int k = 0; k < STATISTICS_QUANTILES; k++)
-            show_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &of[i].quantile[k],
-                          of[i].deviation.value);
+            show_estimate(stream, k + 1 < STATISTICS_QUANTILES ? 30 : 0, &s.quantile[k],
+                          s.deviation.value);
         fputc('\n', stream);
     }
 }
@@ -113,9 +114,8 @@ static void print_values(const shown *self, const group_statistics *of)
         if (of[i].count == 0)
             continue;
         char value[32];
-        show_text(value, of[i].mean.value, 6);
-        show_name(self->stream, show_name_width(self->column, self->count), self->column[i]->name,
-                  self->column[i]->unit);
+        show_text(value, show_in_unit(&of[i], self->column[i]).mean.value, 6);
+        show_result(self->stream, show_name_width(self->column, self->count), self->column[i]);
         fprintf(self->stream, " %s\n", value);
     }
 }
@@ -148,16 +148,20 @@ static void print_ellipse(FILE *stream, const shown_ellipse *e)
 {
     const double degrees = 57.295779513082321;
     const study_column *const *pair = e->column;
+    const study_unit unit = study_result_unit(pair[0]->name, pair[0]->unit);
+    const double to = unit.factor;
     fprintf(stream, "%s and %s [%s]: centre %.6g, %.6g; %zu rockets\n", VISIBLE(pair[0]->name),
-            VISIBLE(pair[1]->name), VISIBLE(pair[0]->unit), e->of.mean[0], e->of.mean[1], e->count);
+            VISIBLE(pair[1]->name), VISIBLE(unit.name), to * e->of.mean[0], to * e->of.mean[1],
+            e->count);
+    const estimate axis[] = {show_scaled(&e->axis[0], to), show_scaled(&e->axis[1], to)};
     fputs("    semi-axes of one standard deviation", stream);
-    show_estimate(stream, 0, &e->axis[0], NAN);
+    show_estimate(stream, 0, &axis[0], NAN);
     fputs(" and", stream);
-    show_estimate(stream, 0, &e->axis[1], NAN);
+    show_estimate(stream, 0, &axis[1], NAN);
     fprintf(stream,
             "\n    of 95 %% of a normal distribution %.4g and %.4g; the long one %.4g deg from %s "
             "towards %s\n",
-            ellipse_radius * e->of.semi_axis[0], ellipse_radius * e->of.semi_axis[1],
+            ellipse_radius * to * e->of.semi_axis[0], ellipse_radius * to * e->of.semi_axis[1],
             e->of.angle * degrees, VISIBLE(pair[0]->name), VISIBLE(pair[1]->name));
     print_normality(stream, &e->form);
 }
@@ -333,6 +337,13 @@ static bool column_scatters(const shown *self, int column, int from, int to)
     return false;
 }
 
+// Of a result at a point, in the unit in which it is shown.
+static group_statistics shown_at(const shown *self, int point, int column)
+{
+    return show_in_unit(&shown_statistics(self, &self->data->point[point])[column],
+                        self->column[column]);
+}
+
 // Points `from` to before `to`, a column each.
 static void print_beside(const shown *self, int from, int to)
 {
@@ -345,14 +356,18 @@ static void print_beside(const shown *self, int from, int to)
     }
     for (int c = 0; c < self->count; c++) {
         fputc('\n', self->stream);
-        show_name(self->stream, width, self->column[c]->name, self->column[c]->unit);
-        for (int i = from; i < to; i++)
-            show_half(self->stream, CELL, &shown_statistics(self, &data->point[i])[c].mean, 6);
+        show_result(self->stream, width, self->column[c]);
+        for (int i = from; i < to; i++) {
+            const group_statistics of = shown_at(self, i, c);
+            show_half(self->stream, CELL, &of.mean, 6);
+        }
         if (!column_scatters(self, c, from, to))
             continue;
         fprintf(self->stream, "\n%-*s", width, "    deviation");
-        for (int i = from; i < to; i++)
-            show_half(self->stream, CELL, &shown_statistics(self, &data->point[i])[c].deviation, 4);
+        for (int i = from; i < to; i++) {
+            const group_statistics of = shown_at(self, i, c);
+            show_half(self->stream, CELL, &of.deviation, 4);
+        }
     }
     fputc('\n', self->stream);
 }

@@ -26,11 +26,6 @@ void show_launches(FILE *stream, const char *file, const measured *launches)
     fputs("\n\n", stream);
 }
 
-static estimate scaled(estimate e, double factor)
-{
-    return (estimate){e.value * factor, e.low * factor, e.high * factor};
-}
-
 // p, with a star where it is below the level; counts the test, if it is one.
 static void print_chance(FILE *stream, double chance, verdict *of)
 {
@@ -50,10 +45,10 @@ static void print_result(FILE *stream, const measured_result *result, const meas
 {
     enum { COLUMN = 22, APART = 30 };
     double to = 1 / result->factor;
-    const estimate mean[] = {scaled(of->measured.mean, to), scaled(of->simulated.mean, to),
-                             scaled(of->by.mean, to)};
-    const estimate deviation[] = {scaled(of->measured.deviation, to),
-                                  scaled(of->simulated.deviation, to)};
+    const estimate mean[] = {show_scaled(&of->measured.mean, to),
+                             show_scaled(&of->simulated.mean, to), show_scaled(&of->by.mean, to)};
+    const estimate deviation[] = {show_scaled(&of->measured.deviation, to),
+                                  show_scaled(&of->simulated.deviation, to)};
     show_name(stream, SHOW_NAME, result->name, result->unit);
     fprintf(stream, " %5zu", result->count);
     show_half(stream, COLUMN, &mean[0], 5);

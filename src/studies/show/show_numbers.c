@@ -4,6 +4,7 @@
 
 #include "base/printed.h"
 #include "math/functions.h"
+#include "quantities/study_results.h"
 
 int show_digits(double value, double spread, int least)
 {
@@ -24,10 +25,34 @@ int show_name_width(const study_column *const *column, int count)
 {
     size_t width = SHOW_NAME;
     for (int i = 0; i < count; i++) {
-        size_t unit = strlen(column[i]->unit), own = strlen(column[i]->name) + unit + 3 * !!unit;
+        size_t unit = strlen(study_result_unit(column[i]->name, column[i]->unit).name);
+        size_t own = strlen(column[i]->name) + unit + 3 * !!unit;
         width = own > width && own < 64 ? own : width;
     }
     return (int)width;
+}
+
+void show_result(FILE *stream, int width, const study_column *column)
+{
+    show_name(stream, width, column->name, study_result_unit(column->name, column->unit).name);
+}
+
+estimate show_scaled(const estimate *e, double factor)
+{
+    return (estimate){e->value * factor, e->low * factor, e->high * factor};
+}
+
+group_statistics show_in_unit(const group_statistics *of, const study_column *column)
+{
+    const double factor = study_result_unit(column->name, column->unit).factor;
+    group_statistics shown = *of;
+    shown.mean = show_scaled(&of->mean, factor);
+    shown.deviation = show_scaled(&of->deviation, factor);
+    for (int k = 0; k < STATISTICS_QUANTILES; k++)
+        shown.quantile[k] = show_scaled(&of->quantile[k], factor);
+    shown.least = of->least * factor;
+    shown.greatest = of->greatest * factor;
+    return shown;
 }
 
 void show_text(char text[32], double value, int digits)

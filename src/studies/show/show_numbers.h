@@ -15,6 +15,12 @@ int show_digits(double value, double spread, int least);
 enum { SHOW_NAME = 26 };
 void show_name(FILE *stream, int width, const char *result, const char *unit);
 int show_name_width(const study_column *const *column, int count);
+// The same of a result of a study, in the unit in which people read it.
+void show_result(FILE *stream, int width, const study_column *column);
+
+// An estimate or what else is known of a result, in that unit.
+estimate show_scaled(const estimate *e, double factor);
+group_statistics show_in_unit(const group_statistics *of, const study_column *column);
 
 // What was not found is printed as "-", a negative zero as 0.
 void show_text(char text[32], double value, int digits);

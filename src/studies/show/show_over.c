@@ -118,11 +118,6 @@ static void begin_table(over_table *to)
                 to->several ? "ratio within samples" : "", "pairs");
 }
 
-static estimate scaled(const estimate *e, double factor)
-{
-    return (estimate){e->value * factor, e->low * factor, e->high * factor};
-}
-
 static ld_status print_own(over_table *to, int cell, ld_error *error)
 {
     const pooled *of = &to->of->pool;
@@ -130,8 +125,8 @@ static ld_status print_own(over_table *to, int cell, ld_error *error)
     estimate deviation;
     if (pooled_mean(of, &mean) || pooled_deviation(of, &deviation))
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
-    const estimate si = interval_of(&mean), own = scaled(&si, to->unit.factor);
-    deviation = scaled(&deviation, to->unit.factor);
+    const estimate si = interval_of(&mean), own = show_scaled(&si, to->unit.factor);
+    deviation = show_scaled(&deviation, to->unit.factor);
     begin_table(to);
     print_keys(to, cell);
     show_half(to->stream, MEAN, &own, 6);
@@ -146,7 +141,7 @@ static ld_status print_pairs(over_table *to, int cell, ld_error *error)
     paired_statistics of;
     if (pooled_pairs(&to->of->pool, &of))
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's statistics");
-    const estimate difference = scaled(&of.difference, to->unit.factor);
+    const estimate difference = show_scaled(&of.difference, to->unit.factor);
     begin_table(to);
     print_keys(to, cell);
     if (of.groups == 0) {
