@@ -1,6 +1,8 @@
 #include "cli/progress.h"
 
+#include <math.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <time.h>
 #include <unistd.h>
@@ -38,32 +40,67 @@ void progress_start(run_progress *progress, bool quiet)
         sigaction(SIGHUP, &action, NULL);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    *progress = (run_progress){.shown = !quiet && isatty(STDERR_FILENO), .start = now()};
+    *progress = (run_progress){.shown = !quiet, .terminal = isatty(STDERR_FILENO), .start = now()};
     progress->latest = progress->start;
 }
 
-// "[######............]  31 %   12.4 %/s   5.6 s left"
+// ---- lines
+
+// Of a line that moves; of lines of their own: no more often than LEAST, then after a tenth of the
+// way or after MOST.
+static const double MOVES = 0.2, LEAST = 30, MOST = 600; // [s]
+static const double STEP = 0.1;
+
+// Whether a line is due; `share`: done of all, NaN: not known.
+static bool is_due(run_progress *progress, double share, double time)
+{
+    double since = time - progress->latest;
+    if (!progress->shown || since < (progress->terminal ? MOVES : LEAST))
+        return false;
+    if (!progress->terminal && since < MOST && !(share - progress->share >= STEP))
+        return false;
+    progress->latest = time;
+    progress->share = share;
+    progress->drawn = progress->terminal;
+    return true;
+}
+
+// A line that is due.
+static void print_line(const run_progress *progress, const char *format, ...) LD_PRINTF(2, 3);
+static void print_line(const run_progress *progress, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fputs(progress->terminal ? "\r" : "launchdyn: ", stderr);
+    vfprintf(stderr, format, arguments);
+    fputs(progress->terminal ? "     " : "\n", stderr);
+    fflush(stderr);
+    va_end(arguments);
+}
+
+// "[######............]  31 %   12.4 %/s   5.6 s left"; without the bar where it does not move.
 static void draw(const run_progress *progress, double share)
 {
     enum { WIDTH = 40 };
-    char bar[WIDTH + 1] = "";
-    for (int i = 0; i < WIDTH; i++)
-        bar[i] = i < share * WIDTH ? '#' : '.';
+    char bar[WIDTH + 4] = "";
     double rate = share / (progress->latest - progress->start);
-    fprintf(stderr, "\r[%s] %3.0f %% %8.3g %%/s %8.1f s left ", bar, share * 100, rate * 100,
-            rate > 0 ? (1 - share) / rate : 0);
-    fflush(stderr);
+    double left = rate > 0 ? (1 - share) / rate : 0;
+    for (int i = 0; progress->terminal && i < WIDTH; i++)
+        bar[i + 1] = i < share * WIDTH ? '#' : '.';
+    if (!progress->terminal) {
+        print_line(progress, "%.0f %%, %.3g %%/s, %.0f s left", share * 100, rate * 100, left);
+        return;
+    }
+    bar[0] = '[';
+    bar[WIDTH + 1] = ']';
+    print_line(progress, "%s %3.0f %% %8.3g %%/s %8.1f s left", bar, share * 100, rate * 100, left);
 }
 
 bool progress_share(void *self, double share)
 {
     run_progress *progress = self;
-    double time = progress->shown ? now() : 0;
-    if (progress->shown && time - progress->latest > 0.2) {
-        progress->latest = time;
-        progress->drawn = true;
+    if (progress->shown && is_due(progress, share, now()))
         draw(progress, share);
-    }
     return stop_signal == 0;
 }
 
@@ -80,20 +117,17 @@ void progress_samples(void *self, const ld_study_counts *counts)
     run_progress *progress = self;
     double time = now();
     char look[64] = "";
-    if (!progress->shown || time - progress->latest < 0.2)
-        return;
-    progress->latest = time;
-    progress->drawn = true;
-    double rate = (double)counts->now / (time - progress->start);
     bool open_end = counts->look > 0 && counts->look < counts->samples;
     int64_t next = open_end ? counts->look : counts->samples;
+    if (!is_due(progress, (double)counts->done / (double)counts->samples, time))
+        return;
+    double rate = (double)counts->now / (time - progress->start);
     if (open_end)
         snprintf(look, sizeof look, ", next check of the stopping rule at %lld",
                  (long long)counts->look);
-    fprintf(stderr, "\r%lld of %s%lld samples%s, %lld failed, %.3g /s, %.0f s left     ",
-            (long long)counts->done, open_end ? "at most " : "", (long long)counts->samples, look,
-            (long long)counts->failed, rate, (double)(next - counts->done) / rate);
-    fflush(stderr);
+    print_line(progress, "%lld of %s%lld samples%s, %lld failed, %.3g /s, %.0f s left",
+               (long long)counts->done, open_end ? "at most " : "", (long long)counts->samples,
+               look, (long long)counts->failed, rate, (double)(next - counts->done) / rate);
 }
 
 // "start 2 of 4, 134 launches, 83.1 /s, chi2 12.3".
@@ -102,15 +136,13 @@ void progress_launches(void *self, const ld_fit_counts *counts)
     run_progress *progress = self;
     double time = now();
     char chi2[48] = "";
-    if (!progress->shown || time - progress->latest < 0.2)
+    if (!is_due(progress, NAN, time))
         return;
-    progress->latest = time;
-    progress->drawn = true;
     if (counts->chi2 == counts->chi2)
         snprintf(chi2, sizeof chi2, ", chi2 %.4g", counts->chi2);
-    fprintf(stderr, "\r%.60s, %lld launches, %.3g /s%s     ", counts->stage,
-            (long long)counts->launches, (double)counts->launches / (time - progress->start), chi2);
-    fflush(stderr);
+    print_line(progress, "%.60s, %lld launches, %.3g /s%s", counts->stage,
+               (long long)counts->launches, (double)counts->launches / (time - progress->start),
+               chi2);
 }
 
 void progress_end(run_progress *progress)

@@ -1,4 +1,5 @@
-// How far a run is, on stderr where that is a terminal; and the wish to stop it.
+// How far a run is, on stderr: a line that moves on a terminal, elsewhere now and then a line of
+// its own; and the wish to stop it.
 #ifndef LD_CLI_PROGRESS_H
 #define LD_CLI_PROGRESS_H
 
@@ -9,8 +10,10 @@
 
 typedef struct run_progress {
     bool shown;           // draw a line at all
+    bool terminal;        // on one that moves
     bool drawn;           // there is one on the terminal
     double start, latest; // [s] of the start and of the line last drawn
+    double share;         // done then, where that is known
 } run_progress;
 
 // From now on SIGINT, SIGTERM and, unless it is ignored (nohup), SIGHUP ask for a stop; a second
