@@ -103,6 +103,8 @@ typedef struct element_motion {
     double a[2], a_dot[2]; // stretch, likewise
     bool shortened;        // by bending
     foreshortening before; // then: at x0
+    bool sheared;
+    double strain[2], strain_dot[2]; // then: by plane
 } element_motion;
 
 // A cubic with coefficients c of x^0..3, its first and its second derivative.

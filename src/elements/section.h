@@ -3,6 +3,7 @@
 #ifndef LD_ELEMENTS_SECTION_H
 #define LD_ELEMENTS_SECTION_H
 
+#include "elements/sheared.h"
 #include "elements/shortened.h"
 
 // The deflection along z by shapes of its own.
@@ -60,6 +61,9 @@ LD_INLINE void element_load(const tube_system *self, const modal_state *q, int i
     motion->shortened = self->flexible.shortening != NULL;
     if (__builtin_expect(motion->shortened, 0))
         element_shorten(self, q, index, motion);
+    motion->sheared = self->flexible.shear != NULL;
+    if (__builtin_expect(motion->sheared, 0))
+        element_shear(self, q, index, motion);
 }
 
 LD_INLINE void section_load(const tube_system *self, const element_motion *motion, double x,
@@ -78,6 +82,8 @@ LD_INLINE void section_load(const tube_system *self, const element_motion *motio
         section_shorten(motion, s);
     s->th = v3_make(motion->t[0] + xi * motion->t[1], -uz1, uy1);
     s->k0 = v3_make(motion->t[1], -poly2(motion->z, xi), poly2(motion->y, xi));
+    if (__builtin_expect(motion->sheared, 0))
+        turn_less(motion->strain, &s->th);
     rv_coefficients k = rv_coefficients_of(v3_norm2(s->th));
     double t2 = v3_norm2(s->th);
     m3 outer = m3_outer(s->th, s->th), skew = m3_skew(s->th);
@@ -109,6 +115,8 @@ LD_INLINE void section_rates_load(const element_motion *motion, const axis_secti
     r->u1_dot = v3_make(motion->a_dot[1], uy1, uz1);
     r->th_dot = v3_make(motion->t_dot[0] + xi * motion->t_dot[1], -uz1, uy1);
     r->k0_dot = v3_make(motion->t_dot[1], -poly2(motion->z_dot, xi), poly2(motion->y_dot, xi));
+    if (__builtin_expect(motion->sheared, 0))
+        turn_less(motion->strain_dot, &r->th_dot);
     r->w = m3_apply(s->Jl, r->th_dot);
     if (__builtin_expect(motion->shortened, 0))
         section_rates_shorten(motion, s, r);
@@ -127,6 +135,8 @@ LD_INLINE double section_gap(const tube_system *self, const element_motion *moti
     double length = self->flexible.length;
     double inside = x < 0 ? 0 : x > length ? length : x, xi = inside - motion->element->x0;
     v3 th = v3_make(motion->t[0] + xi * motion->t[1], -poly1(motion->z, xi), poly1(motion->y, xi));
+    if (__builtin_expect(motion->sheared, 0))
+        turn_less(motion->strain, &th);
     rv_coefficients k = rv_coefficients_of(v3_norm2(th));
     v3 axis = v3_make(1 - k.b * (th.y * th.y + th.z * th.z), k.b * th.x * th.y + k.a * th.z,
                       k.b * th.x * th.z - k.a * th.y);
@@ -184,6 +194,8 @@ LD_INLINE void apply_generalised(const int lanes, const tube_system *self, const
         guide_forces_add(h->record, s->x, f, on.m);
     if (__builtin_expect(h->bent != NULL, 0))
         bend_by_axial_force(self, s->x, f.x, h);
+    if (__builtin_expect(self->flexible.shear != NULL, 0))
+        shear_by_moment(self, s->index, mu, h);
     double xi = s->xi, x2 = xi * xi, x3 = x2 * xi;
     // weights of the powers of xi: b and b' against force and moment
     double y[4] = {f.y, f.y * xi + mu.z, f.y * x2 + mu.z * 2 * xi, f.y * x3 + mu.z * 3 * x2};

@@ -101,6 +101,20 @@ static void add_bending(double K[LD_NB][LD_NB], double b[4][LD_NB], double x0, i
     }
 }
 
+// K += k G A strain strain^T of a stretch of an element, G A = G I_t mu/(rho I_p) of round
+// sections.
+static void add_shear(dense_launch *dense, int element, double stretch, const ld_section *section)
+{
+    double GA = section->torsion_stiffness * section->mass_per_length / section->polar_inertia;
+    double kGA = dense->model->tubes.modes.shear_coefficient * GA;
+    for (int plane = 0; plane < 2; plane++) {
+        const double *strain = dense->tube->shear->strain[element][plane];
+        for (int i = 0; i < dense->tube->nb; i++)
+            for (int j = 0; j < dense->tube->nb; j++)
+                dense->K[plane][i][j] += kGA * stretch * strain[i] * strain[j];
+    }
+}
+
 // D = 2 zeta K^(1/2), by K's eigenvectors: the shapes have unit mass.
 static void damp_bending(double D[LD_NB][LD_NB], double K[LD_NB][LD_NB], int nb, double zeta)
 {
@@ -143,6 +157,8 @@ void dense_launch_create(dense_launch *dense, const ld_model *model, const flexi
             for (int plane = 0; plane < 2; plane++)
                 add_bending(dense->K[plane], tube->element[i].b[plane], tube->element[i].x0,
                             tube->nb, from, to, bending_of(section, plane));
+            if (tube->shear)
+                add_shear(dense, i, to - from, section);
             from = to;
         }
     }
@@ -355,6 +371,15 @@ static jet3 axis_point(const jet_scene *scene, jet x)
     return p;
 }
 
+// Shear strain of an element in a plane: the slope less the section's turn.
+static jet strain_of(const jet_scene *scene, int element, int plane)
+{
+    const flexible_tube *tube = scene->dense->tube;
+    const mode_family modes = {tube->shear->strain[element][plane], 1, LD_NB, tube->nb,
+                               plane * tube->nb};
+    return shape_at(scene, &modes, 0, 0);
+}
+
 static bool is_shortened(const jet_scene *scene)
 {
     return scene->dense->model->tubes.modes.geometric_stiffness == LD_GEOMETRIC_YES;
@@ -400,6 +425,12 @@ static jet3 section_turn(const jet_scene *scene, jet x)
 {
     jet3 phi = {{family_at(scene, 't', 0, x), jet_scale(-1, family_at(scene, 'z', 1, x)),
                  family_at(scene, 'y', 1, x)}};
+    if (scene->dense->tube->shear) {
+        int element = (int)(element_at(scene->dense->tube, x.v) - scene->dense->tube->element);
+        jet strain[2] = {strain_of(scene, element, 0), strain_of(scene, element, 1)};
+        jet_increase(&phi.c[2], -1, &strain[0]);
+        jet_increase(&phi.c[1], 1, &strain[1]);
+    }
     return phi;
 }
 
@@ -593,6 +624,33 @@ static void add_shortened(equations *eq, const jet_scene *scene)
     }
 }
 
+// Rotary inertia of a part of the tube about z and y, as far as it turns with its section: round in
+// the stiffness of both planes. 1/2 I ((w + phi_dot)^2 - phi_dot^2), and the modes' own share as
+// the formulation has it, of a mass I at a deflection phi in R's axes: modal mass E in all terms.
+static void add_rotary(equations *eq, const jet_scene *scene, const dense_tube_point *point)
+{
+    const ld_section *section = section_at(&scene->dense->model->tubes, point->at);
+    double both = bending_of(section, 0) + bending_of(section, 1);
+    jet3 turn = section_turn(scene, jet_constant(point->at));
+    jet3 place[2] = {{{jet_constant(0), turn.c[2], jet_constant(0)}},
+                     {{jet_constant(0), jet_constant(0), jet_scale(-1, turn.c[1])}}};
+    bool alike = !scene->dense->tube->overlap;
+    if (alike)
+        place[0].c[2] = place[1].c[2];
+    for (int plane = 0; plane < 2; plane++) {
+        double share = point->polar * bending_of(section, plane) / both;
+        jet inertia = jet_constant(share), back = jet_constant(-share);
+        add_turning(eq, scene, 2 - plane, &turn.c[2 - plane], &inertia);
+        add_turning(eq, scene, -1, &turn.c[2 - plane], &back);
+        if (alike && plane)
+            continue;
+        jet3 moved = jet33_turn(&scene->R.A, &place[plane]);
+        add_mass(eq, &moved, share, 0);
+        for (int i = 0; i < 3; i++)
+            eq->momentum[i] -= share * moved.c[i].e;
+    }
+}
+
 static void add_tube(equations *eq, const jet_scene *scene)
 {
     const dense_launch *dense = scene->dense;
@@ -604,6 +662,8 @@ static void add_tube(equations *eq, const jet_scene *scene)
         if (point->polar != 0) {
             jet phi_x = family_at(scene, 't', 0, at), polar = jet_constant(point->polar);
             add_turning(eq, scene, 0, &phi_x, &polar);
+            if (dense->tube->shear)
+                add_rotary(eq, scene, point);
         }
     }
     if (is_shortened(scene))

@@ -405,6 +405,29 @@ static void geometric_stiffness_equals_dense(void **state)
     reference_model_free(&model);
 }
 
+// Sections that turn by less than the slope, with rotary inertia.
+static void shear_equals_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    model.tubes.modes.shear_coefficient = 1e-3; // soft: 0.53 is that of a thin tube
+    check_agreement(&model, launching_evaluate, 100, "shear");
+    check_agreement(&model, overall, 100, "shear, overall");
+    model.rocket.adaptor_count = 2;
+    model.rocket.adaptor[1] = model.rocket.adaptor[2];
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    check_agreement(&model, overall, 60, "shear, ideal adaptors, overall");
+    split_planes(&model.tubes);
+    model.tubes.modes.geometric_stiffness = LD_GEOMETRIC_YES;
+    model.tubes.modes.axial = 2;
+    model.tubes.support[0].clamped = 0x2a; // y, roll, pitch
+    model.tubes.support[1].clamped = 0x05; // x, z
+    check_agreement(&model, launching_evaluate, 60, "shear and all other options, clamped");
+    reference_model_free(&model);
+}
+
 // Two stations held along x, which a tube with axial modes alone can follow: its stretch takes part
 // in what puts it back.
 static void projection_stretches_the_tube(void **state)
@@ -526,6 +549,7 @@ int main(void)
         cmocka_unit_test(ideal_adaptors_equal_dense),
         cmocka_unit_test(clamped_supports_equal_dense),
         cmocka_unit_test(geometric_stiffness_equals_dense),
+        cmocka_unit_test(shear_equals_dense),
         cmocka_unit_test(projection_stretches_the_tube),
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(pressure_and_recoil_equal_dense),

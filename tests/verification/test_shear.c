@@ -5,8 +5,11 @@
 #include <string.h>
 
 #include "elements/tube/flexible_tube.h"
+#include "model/model.h"
 #include "support/check.h"
 #include "support/frame_elements.h"
+#include "support/recorded_run.h"
+#include "support/reference_model.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -348,12 +351,78 @@ static void test_tip_loaded_shapes(void **state)
     ld_mstmm_free(system);
 }
 
+// ---- the launching tube
+
+// Lowest frequencies [rad/s] in the vertical plane of a rod as a tube that its rear end holds.
+static void tube_frequencies(int mesh, int count, double *omega)
+{
+    ld_model model;
+    ld_simulation *simulation;
+    ld_error error;
+    ld_mode mode[4 * MODES];
+    reference_model(&model);
+    ld_tubes *tubes = &model.tubes;
+    tubes->length = length;
+    tubes->section[0] = rod();
+    tubes->tail = (ld_tail){0};
+    tubes->modes = (ld_modes){.bending = 8,
+                              .elements = mesh,
+                              .span = LD_SPAN_CLAMPED,
+                              .shear_coefficient = shear_coefficient};
+    tubes->support_count = 1;
+    tubes->support[0] = (ld_support){.clamped = 0x3f, .stiffness = {NAN, NAN, NAN}};
+    if (ld_simulation_create(&model, &simulation, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(ld_simulation_tube_modes(simulation, mode, 4 * MODES), 4 * MODES);
+    for (int k = 0; k < count; k++)
+        omega[k] = 2 * PI * mode[2 * k].frequency; // planes alike: every frequency twice
+    ld_simulation_free(simulation);
+    reference_model_free(&model);
+}
+
+static void test_tube_frequencies(void **state)
+{
+    (void)state;
+    double exact[MODES], coarse[MODES], fine[MODES];
+    exact_frequencies(true, MODES, exact);
+    tube_frequencies(80, MODES, coarse);
+    tube_frequencies(160, MODES, fine);
+    for (int k = 0; k < MODES; k++) {
+        double found = fine[k] + (fine[k] - coarse[k]) / 3;
+        printf("  %d: %.3f rad/s, 80 elements off by %.1e\n", k + 1, exact[k],
+               coarse[k] / exact[k] - 1);
+        CHECK_BELOW("frequency of the tube, extrapolated in h, relative", found / exact[k] - 1,
+                    1e-8);
+    }
+}
+
+// A launch from a tube that is soft in shear, with all that bends it.
+static void test_tube_launch(void **state)
+{
+    (void)state;
+    double rate[2];
+    for (int k = 0; k < 2; k++) {
+        ld_model model;
+        reference_model(&model);
+        model.run.tolerance = 1e-8;
+        model.tubes.modes.shear_coefficient = k ? 0.02 : 0.53;
+        model.tubes.modes.geometric_stiffness = LD_GEOMETRIC_YES;
+        ld_summary summary = summary_of_run(&model);
+        rate[k] = summary.rocket[0].pitch_rate;
+        CHECK_BELOW("energy residual over the largest work", summary.energy.residual_relative,
+                    1e-9);
+        reference_model_free(&model);
+    }
+    printf("  exit pitch rate %.6f rad/s, soft in shear %.6f\n", rate[0], rate[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_frequencies), cmocka_unit_test(test_planes),
-        cmocka_unit_test(test_integrals),   cmocka_unit_test(test_shapes_of_another_span),
-        cmocka_unit_test(test_deflection),  cmocka_unit_test(test_tip_loaded_shapes),
+        cmocka_unit_test(test_frequencies),      cmocka_unit_test(test_planes),
+        cmocka_unit_test(test_integrals),        cmocka_unit_test(test_shapes_of_another_span),
+        cmocka_unit_test(test_deflection),       cmocka_unit_test(test_tip_loaded_shapes),
+        cmocka_unit_test(test_tube_frequencies), cmocka_unit_test(test_tube_launch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

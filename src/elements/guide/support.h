@@ -262,7 +262,8 @@ LD_INLINE void support_build(const ld_support *from, int k, tube_system *guide, 
             double b0 = element->b[plane][0][j], b1 = element->b[plane][1][j];
             double b2 = element->b[plane][2][j], b3 = element->b[plane][3][j];
             tube_set_row(guide, plane, 2 * k, j, b0 + xi * (b1 + xi * (b2 + xi * b3)));
-            tube_set_row(guide, plane, 2 * k + 1, j, b1 + xi * (2 * b2 + xi * 3 * b3));
+            double strain = tube->shear ? tube->shear->strain[to->element][plane][j] : 0;
+            tube_set_row(guide, plane, 2 * k + 1, j, b1 + xi * (2 * b2 + xi * 3 * b3) - strain);
         }
     for (int j = 0; j < tube->nt; j++)
         to->tau[j] = element->tau[0][j] + xi * element->tau[1][j];

@@ -677,6 +677,9 @@ static const field_row modes_fields[] = {
      .doc = "geometric stiffness: axial forces stiffen or soften bending"},
     {"cut", NUMBER(ld_modes, cut, "Hz"), NOT_NEGATIVE, DEFAULT(0),
      .doc = "faster modes are slowed to this frequency, keeping their static compliance; 0: none"},
+    {"shear_coefficient", NUMBER(ld_modes, shear_coefficient, ""), FROM_TO(0, 1), DEFAULT(0),
+     .doc = "k of k G A of round sections, about 0.53 of thin tubes, 0.89 of rods; with rotary "
+            "inertia. 0: neither shear nor rotary inertia"},
     {0}};
 static const field_block modes_block = {.fields = modes_fields};
 

@@ -175,7 +175,8 @@ void launching_free(launching_system *self)
 
 bool launching_is_general(const launching_system *self)
 {
-    return self->tube.flexible.na > 0 || self->tube.flexible.shortening;
+    const flexible_tube *tube = &self->tube.flexible;
+    return tube->na > 0 || tube->shortening || tube->shear;
 }
 
 bool launching_holds_places(const launching_system *self)

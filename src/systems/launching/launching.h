@@ -67,7 +67,7 @@ void launching_free(launching_system *self);
 void launching_rates(const launching_system *self, const double *state,
                      const launching_output *output, bool rocket, double *state_dot);
 
-// Whether the tube has what the fast layout has not: axial modes, geometric stiffness.
+// Whether the tube has what the fast layout has not: axial modes, geometric stiffness, shear.
 bool launching_is_general(const launching_system *self);
 
 // Whether constraints hold something in its place, from which the state must not drift.
