@@ -17,6 +17,7 @@ from ._library import library as _found
 from ._values import Key, keys
 from .errors import (FileError, InputError, Interrupted, LaunchdynError, LaunchError, Message,
                      MissingError, NumericError, OutOfMemory, Status, UnknownName)
+from .fitting import Fit, FittedKey, fit
 from .response import Loop, LoopPoints, Margins, Response, Scatter, Strength
 from .result import Column, History, Quantity, Result, Summary
 from .scenario import Scenario
@@ -34,11 +35,11 @@ def library_version() -> str:
 
 __all__ = [
     "BaseFrame", "Cell", "Cells", "Column", "Counts", "Estimate", "Event", "EventKind",
-    "FileError", "Footprint", "History", "InputError", "Interrupted", "Key", "LaunchError",
-    "LaunchdynError", "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode",
-    "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run",
-    "Scatter", "Scenario", "Simulation", "Statistics", "Status", "Strength", "Study",
-    "StudyColumn", "StudyData", "Summary", "UnknownName", "VehicleRun", "View", "Wrench",
-    "__version__", "draw", "figures", "keys", "library_version", "merge_shards",
-    "write_report",
+    "FileError", "Fit", "FittedKey", "Footprint", "History", "InputError", "Interrupted",
+    "Key", "LaunchError", "LaunchdynError", "Loop", "LoopPoints", "Margins", "Message",
+    "MissingError", "Mode", "NumericError", "OutOfMemory", "Point", "Pole", "Quantity",
+    "Response", "Result", "Run", "Scatter", "Scenario", "Simulation", "Statistics", "Status",
+    "Strength", "Study", "StudyColumn", "StudyData", "Summary", "UnknownName", "VehicleRun",
+    "View", "Wrench", "__version__", "draw", "figures", "fit", "keys", "library_version",
+    "merge_shards", "write_report",
 ]

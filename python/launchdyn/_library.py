@@ -95,6 +95,24 @@ class ld_study_options(Structure):
                 ("progress", COUNTS_TOLD), ("go_on", GO_ON), ("reserved", c_void_p * 4)]
 
 
+class ld_fit_key(Structure):
+    _fields_ = [("path", c_char_p), ("from", c_char_p), ("to", c_char_p), ("mean", c_char_p),
+                ("deviation", c_char_p)]
+
+
+class ld_fit_counts(Structure):
+    _fields_ = [("launches", c_int64), ("chi2", c_double), ("stage", c_char_p)]
+
+
+FIT_TOLD = CFUNCTYPE(None, c_void_p, POINTER(ld_fit_counts))
+
+
+class ld_fit_options(Structure):
+    _fields_ = [("folder", c_char_p), ("threads", c_int), ("starts", c_int), ("seed", c_int64),
+                ("self", c_void_p), ("progress", FIT_TOLD), ("go_on", GO_ON),
+                ("reserved", c_void_p * 4)]
+
+
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
                 ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
@@ -283,6 +301,12 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_summary_print": (None, [_handle, _handle, c_void_p]),
     "ld_report_write": (c_int, [_text, _text, POINTER(ld_report), _error]),
     "ld_report_write_studies": (c_int, [_texts, c_size_t, _text, POINTER(ld_report), _error]),
+    "ld_fit_create": (c_int, [_handle, POINTER(ld_fit_key), c_size_t, _texts, c_size_t, _handles,
+                              _error]),
+    "ld_fit_run": (c_int, [_handle, POINTER(ld_fit_options), _error]),
+    "ld_fit_print": (None, [_handle, c_void_p]),
+    "ld_fit_print_json": (None, [_handle, c_void_p]),
+    "ld_fit_free": (None, [_handle]),
     "ld_fmu_export": (c_int, [_handle, c_int, c_int, _text, _error]),
     "ld_figure_at": (POINTER(ld_figure), [c_size_t]),
     "ld_plot": (c_int, [POINTER(ld_picture), _text, _error]),

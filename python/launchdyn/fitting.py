@@ -1,0 +1,104 @@
+"""Fits: keys of a scenario at which its launch has the results that were measured."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._interrupt import Interrupt
+from ._library import GO_ON, ld_error, ld_fit_key, ld_fit_options, library
+from ._memory import Handle, coded, coded_path, printed, texts
+from ._values import value_text
+from .errors import check
+from .scenario import Scenario
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+
+class FittedKey(NamedTuple):
+    """What a fit says of a key, in SI."""
+
+    value: float
+    deviation: float  #: standard; NaN at a bound, or where the data do not tell the key
+    low: float  #: of the 95 % interval
+    high: float
+    unit: str
+    at_bound: bool
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What was fitted (docs/fit.md); printed, it is the table of `launchdyn fit`."""
+
+    keys: dict[str, FittedKey]  #: by path
+    covariance: npt.NDArray[np.float64]  #: [keys, keys] in SI
+    chi2: float
+    freedom: int  #: results and priors beyond the keys
+    p: float  #: chance of such a chi2 of noise alone; NaN without freedom
+    document: dict[str, Any] = field(repr=False)  #: all of it, as fit.json has it
+    text: str = field(repr=False)
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(self.text)}</pre>"
+
+
+def _number(value: Optional[float]) -> float:
+    return np.nan if value is None else float(value)
+
+
+def _fit_of(pointer: int) -> Fit:
+    document = json.loads(printed(lambda stream: library.ld_fit_print_json(pointer, stream)))
+    keys = {key["path"]: FittedKey(_number(key["value"]), _number(key["deviation"]),
+                                   _number(key["low"]), _number(key["high"]), key["unit"],
+                                   key["at_bound"]) for key in document["keys"]}
+    covariance = np.array([[_number(value) for value in row] for row in document["covariance"]])
+    return Fit(keys, covariance, document["chi2"], document["freedom"], _number(document["p"]),
+               document, printed(lambda stream: library.ld_fit_print(pointer, stream)))
+
+
+def fit(scenario: Scenario, files: Union[PathLike, Sequence[PathLike]],
+        over: Mapping[str, tuple[Any, Any]],
+        prior: Optional[Mapping[str, tuple[Any, Any]]] = None,
+        folder: Optional[PathLike] = None, threads: int = 1, starts: int = 4,
+        seed: int = 0) -> Fit:
+    """Fits keys to measured launches, CSV files with a line a launch.
+
+    `over` has bounds by path, {"rocket.lock.release_force": ("2 kN", "10 kN")}; `prior` mean and
+    standard deviation; bare numbers are in SI. With a folder, Ctrl-C keeps what was computed: the
+    same call continues, and fitted.yaml is written there.
+    """
+    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    unknown = set(prior or {}) - set(over)
+    if unknown:
+        raise ValueError(f"prior of a key that is not fitted: {sorted(unknown)[0]}")
+    wishes = (ld_fit_key * max(len(over), 1))()
+    for wish, (path, bounds) in zip(wishes, over.items()):
+        wish.path = coded(path)
+        wish.__setattr__("from", coded(value_text(path, bounds[0])))
+        wish.to = coded(value_text(path, bounds[1]))
+        if prior and path in prior:
+            wish.mean, wish.deviation = (coded(value_text(path, part)) for part in prior[path])
+    error, pointer = ld_error(), ctypes.c_void_p()
+    names = texts([os.fspath(path) for path in paths])
+    check(library.ld_fit_create(scenario.handle.pointer, wishes, len(over), names, len(names),
+                                ctypes.byref(pointer), ctypes.byref(error)), error)
+    handle = Handle(pointer.value, library.ld_fit_free, scenario.handle)
+    with Interrupt() as interrupt:
+        options = ld_fit_options(folder=None if folder is None else coded_path(folder),
+                                 threads=threads, starts=starts, seed=seed,
+                                 go_on=GO_ON(lambda _: not interrupt.asked))
+        status = library.ld_fit_run(handle.pointer, ctypes.byref(options), ctypes.byref(error))
+        if not interrupt.asked:
+            check(status, error)
+    return _fit_of(handle.pointer)
