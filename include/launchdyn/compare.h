@@ -101,6 +101,12 @@ const char *ld_comparison_note(const ld_comparison *comparison, int index);
 
 /// Prints it as tables, in the log's units.
 void ld_comparison_print(const ld_comparison *comparison, FILE *stream);
+/// Draws each series as measured and as simulated, and below that E between -2 u_val and 2 u_val,
+/// with gnuplot, which must be in PATH.
+/// @param file the picture; its ending says what it becomes: .svg, .pdf or .png
+/// @return LD_OK, LD_ERR_INPUT (another ending, no series), LD_ERR_FILE, LD_ERR_MEMORY,
+///         LD_ERR_MISSING (no gnuplot)
+ld_status ld_comparison_draw(const ld_comparison *comparison, const char *file, ld_error *error);
 /// Prints it as one JSON object, in SI, with the series' rows.
 void ld_comparison_print_json(const ld_comparison *comparison, FILE *stream);
 

@@ -204,6 +204,38 @@ class ld_picture(Structure):
                 ("reserved", c_void_p * 1)]
 
 
+class ld_compare_options(Structure):
+    _fields_ = [("sensors", c_char_p), ("study", c_char_p), ("samples", c_int),
+                ("refine", c_bool), ("rocket", c_int), ("progress", SHARE_TOLD),
+                ("self", c_void_p), ("reserved", c_void_p * 4)]
+
+
+class ld_validation(Structure):
+    _fields_ = [("error", c_double), ("u_num", c_double), ("u_input", c_double),
+                ("u_data", c_double), ("u_val", c_double), ("limit", c_double),
+                ("verdict", c_int)]
+
+
+class ld_compared_series(Structure):
+    _fields_ = [("name", c_char_p), ("unit", c_char_p), ("log_unit", c_char_p),
+                ("factor", c_double), ("count", c_size_t), ("t", POINTER(c_double)),
+                ("measured", POINTER(c_double)), ("simulated", POINTER(c_double)),
+                ("u_val", POINTER(c_double)), ("of", ld_validation), ("mean", c_double),
+                ("largest", c_double), ("t_largest", c_double), ("saturated", c_size_t),
+                ("gaps", c_size_t), ("outside", c_size_t), ("bias", c_double),
+                ("bias_uncertainty", c_double)]
+
+
+class ld_compared_result(Structure):
+    _fields_ = [("name", c_char_p), ("unit", c_char_p), ("log_unit", c_char_p),
+                ("factor", c_double), ("measured", c_double), ("simulated", c_double),
+                ("of", ld_validation)]
+
+
+class ld_compared_clock(Structure):
+    _fields_ = [("offset", c_double), ("uncertainty", c_double), ("found_by", c_char_p)]
+
+
 KEY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_key))
 QUANTITY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_quantity))
 
@@ -377,6 +409,15 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
                                    POINTER(POINTER(ld_study_cell)), POINTER(c_size_t), _error]),
     "ld_study_data_sensitivity": (c_int, [_handle, c_int, _text, _text, POINTER(ld_estimate),
                                           _error]),
+    # compare.h
+    "ld_compare": (c_int, [_text, _text, POINTER(ld_compare_options), _handles, _error]),
+    "ld_comparison_free": (None, [_handle]),
+    "ld_comparison_series": (POINTER(ld_compared_series), [_handle, c_int]),
+    "ld_comparison_result": (POINTER(ld_compared_result), [_handle, c_int]),
+    "ld_comparison_clock": (POINTER(ld_compared_clock), [_handle]),
+    "ld_comparison_note": (_text, [_handle, c_int]),
+    "ld_comparison_print": (None, [_handle, c_void_p]),
+    "ld_comparison_draw": (c_int, [_handle, _text, _error]),
 }
 
 

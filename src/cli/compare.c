@@ -7,7 +7,7 @@
 
 typedef struct compare_wishes {
     ld_compare_options options;
-    char *sensors, *study, *picture, *style;
+    char *sensors, *study, *picture;
     int json;
 } compare_wishes;
 
@@ -39,8 +39,12 @@ static int compare(const command_line *line, compare_wishes *asked)
         ld_comparison_print_json(comparison, stdout);
     else
         ld_comparison_print(comparison, command_text());
+    if (asked->picture) {
+        status = ld_comparison_draw(comparison, asked->picture, &error);
+        command_step("drew %s", asked->picture);
+    }
     ld_comparison_free(comparison);
-    return 0;
+    return status ? command_fail(status, &error) : 0;
 }
 
 int command_compare(const command *self, int argc, char **argv)
@@ -58,6 +62,9 @@ int command_compare(const command *self, int argc, char **argv)
          "Take u_input of results from the study in this folder", "DIR"},
         {"rocket", '\0', OPTION_INTEGER, &asked.options.rocket,
          "Rocket to compare, in the order of firing (1)", "N"},
+        {"plot", '\0', OPTION_TEXT, &asked.picture,
+         "Draw measured and simulated series with their residuals: FILE.svg, FILE.pdf or FILE.png",
+         "FILE"},
         {"json", '\0', OPTION_FLAG, &asked.json, "Print JSON, in SI, with the rows of all series",
          NULL},
         COMMAND_USUAL};

@@ -235,6 +235,7 @@ static void write_plot(FILE *script, const chart *self, size_t index)
     const char *before = "plot";
     for (int j = 0; j < self->count; j++) {
         const chart_curve *curve = &self->curve[j];
+        style -= curve->again;
         if (!curve->dots || self->x_words.count == 0) {
             fprintf(script, "%s $c%zud%d using 1:2 with lines ", before, index, j);
             before = ", \\\n    ";

@@ -17,6 +17,7 @@ typedef struct chart_curve {
     bool faint;               // grey and thin, its label beside its end
     bool dots;                // a dot at each point, with its interval where that is finite
     const double *low, *high; // [count] of dots
+    bool again;               // looks as the one before it, and is not in the key
 } chart_curve;
 
 // Words along an axis at 0, 1, 2, ...; or numbers.

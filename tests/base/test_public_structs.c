@@ -2,6 +2,7 @@
 // that changes here breaks programs, and requires a new version in cmake/exports.map.
 #include "support/check.h"
 
+#include "launchdyn/compare.h"
 #include "launchdyn/environment.h"
 #include "launchdyn/fit.h"
 #include "launchdyn/history.h"
@@ -28,6 +29,7 @@
     _Static_assert(sizeof(void *) != 8 || sizeof(type) == (bytes), #type " has another size")
 
 // Asked for by the caller: may grow into what is reserved.
+SIZE(ld_compare_options, 80);
 SIZE(ld_fit_options, 80);
 SIZE(ld_picture, 80);
 SIZE(ld_response_wish, 96);
@@ -45,6 +47,9 @@ SIZE(ld_mstmm_loop, 336);
 SIZE(ld_mstmm_settings, 80);
 
 // Handed out one by one: may grow at their ends, up to which programs know them.
+SIZE(ld_compared_clock, 24);
+SIZE(ld_compared_result, 104);
+SIZE(ld_compared_series, 192);
 SIZE(ld_key, 56);
 SIZE(ld_quantity, 32);
 SIZE(ld_study_cell, 96);
@@ -63,6 +68,7 @@ SIZE(ld_error, 644);
 SIZE(ld_estimate, 24);
 SIZE(ld_event, 24);
 SIZE(ld_fact, 16);
+SIZE(ld_validation, 56);
 SIZE(ld_figure, 16);
 SIZE(ld_loop_margins, 80);
 SIZE(ld_loop_point, 48);
