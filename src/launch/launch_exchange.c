@@ -17,7 +17,7 @@ _Static_assert((int)EVENTS_MOST <= (int)LD_MAX_STATES, "more indicators than rep
 ld_status launch_exchange_check(const ld_simulation *simulation, ld_error *error)
 {
     const launcher_system *launcher = &simulation->launcher;
-    if (base_is_vehicle(&launcher->base) && model_run(simulation->model)->coupling_step > 0)
+    if (model_run(simulation->model)->coupling_step > 0)
         return ld_fail(error, LD_ERR_MISSING,
                        "run.coupling: partitioned subsystems have their own integrators; model "
                        "exchange requires monolithic integration");

@@ -120,7 +120,8 @@ static void test_vehicle(void **state)
     REFUSED_OF(VEHICLE, m.run.coupling_step = 0.02,
                "run.coupling.step: 0.02 s is not allowed; expected from 0 to 0.01 s");
     REFUSED(m.run.coupling_step = 1e-4,
-            "run.coupling: requires base.kind: vehicle; other bases have no subsystems to couple");
+            "run.coupling: requires base.kind: vehicle or multibody; other bases have no "
+            "subsystems to couple");
 }
 
 // A fresh model lacks what has no default, and says so.

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "model/model.h"
+#include "scenario/scenario.h"
 #include "support/check.h"
 #include "support/exit_distance.h"
 #include "support/reference_model.h"
@@ -86,12 +87,65 @@ static void any_step(void **state)
     CHECK_NEAR("t_rear [s]", apart.rocket[0].t_rear, together.rocket[0].t_rear, 1e-6);
 }
 
+// A boom whose cylinder closes a loop; wheels and jacks; a turntable with drives on a ship at sea.
+static const struct {
+    const char *file, *sets[5];
+    double exit;
+    bool order;
+} bases[] = {
+    {"erector",
+     {"base.drives.lift.length.command=0.24 m", "base.joints.pivot.lock.from=-50 ms"},
+     4e-6,
+     false},
+    {"trailer", {NULL}, 2e-5, true},
+    {"ship-turntable", {NULL}, 1e-5, true},
+};
+
+static void read_base(size_t i, ld_model *model)
+{
+    const char *sets[8] = {"run.lead_in=0.1 s", "run.tolerance=1e-9", "run.end=tip"};
+    size_t count = 3;
+    char path[512];
+    ld_messages messages = {0};
+    for (int k = 0; bases[i].sets[k]; k++)
+        sets[count++] = bases[i].sets[k];
+    snprintf(path, sizeof path, LD_SOURCE_DIR "/examples/multibody/%s.yaml", bases[i].file);
+    if (scenario_read(path, sets, count, model, &messages))
+        fail_msg("%s cannot be read", bases[i].file);
+}
+
+static void multibody_bases(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof bases / sizeof *bases; i++) {
+        ld_model model;
+        double error[2];
+        read_base(i, &model);
+        ld_summary together = launch(&model), apart;
+        for (int k = 0; k < 2; k++) {
+            model.run.coupling_step = k ? 0.1e-3 : 0.4e-3;
+            apart = launch(&model);
+            error[k] = exit_distance(&apart, &together);
+        }
+        printf("    %s: %.3g rad/s at 0.4 ms\n", bases[i].file, error[0]);
+        if (bases[i].order)
+            CHECK_WITHIN("order of the exit attitude and rates, multibody base",
+                         log2(error[0] / error[1]) / 2, 1.8, 2.2);
+        CHECK_BELOW("exit attitude and rates at 0.1 ms, multibody base [rad/s]", error[1],
+                    bases[i].exit);
+        CHECK_BELOW("energy balance, multibody base, of the largest work",
+                    apart.energy.residual_relative, 1e-8);
+        model_clear(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(second_order),
         cmocka_unit_test(exchange_at_a_corner),
         cmocka_unit_test(any_step),
+        cmocka_unit_test(multibody_bases),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -557,9 +557,17 @@ static void pressure_rules(const rule_set *rules)
 static void coupling_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
-    if (model->run.coupling_step > 0 && !model_has_vehicle(model) && (int)model->base.kind >= 0)
+    bool parts = model_has_vehicle(model) || model_has_multibody(model);
+    if (model->run.coupling_step > 0 && !parts && (int)model->base.kind >= 0)
         report_broken(rules, "run.coupling", 0,
-                      "requires base.kind: vehicle; other bases have no subsystems to couple");
+                      "requires base.kind: vehicle or multibody; other bases have no subsystems to "
+                      "couple");
+    const ld_mechanism *given = &model->base.mechanism;
+    if (model->run.coupling_step > 0 && model_has_multibody(model) &&
+        mechanism_body(given, model->tubes.on) >= given->body_count)
+        report_broken(rules, "run.coupling", 0,
+                      "requires the tubes on a body: the supports on a beam would exchange a frame "
+                      "each");
 }
 
 // Heights rise, pressures fall, and no row has as much vapour as air.

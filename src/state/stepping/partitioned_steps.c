@@ -13,7 +13,7 @@
 #include "systems/mechanism/mechanism_evaluation.h"
 #include "systems/mechanism/mechanism_motion.h"
 
-enum { BODIES_MOST = VEHICLE_MOST_BODY_STATES + VEHICLE_BODY_POWERS + 1 };
+enum { BODIES_MOST = MECHANISM_MOST_STATES + MECHANISM_POWERS + 1 };
 enum { MARCHING_MOST = WHEEL_STATES * LD_MAX_WHEELS + 1 + MARCHING_POWERS };
 
 typedef struct partitioned_steps {
@@ -26,8 +26,8 @@ typedef struct partitioned_steps {
     double t_first; // [s] the instants count from here
     held_frame chassis, tube;
     held_wrench on_chassis, on_tube;
-    integrator *bodies, *marching; // of chassis and platforms, of the wheels
-    int body_count, marching_count;
+    integrator *bodies, *marching; // of the bodies; of the wheels, NULL: there are none
+    int body_count, marching_count, marching_works;
     double from[LD_MAX_STATES], rate_from[LD_MAX_STATES]; // base states and works at the last
     double to[LD_MAX_STATES], rate_to[LD_MAX_STATES];     // exchange, and at the next
 } partitioned_steps;
@@ -105,6 +105,7 @@ static int bodies_rhs(double t, const double *y, double *y_dot, void *user)
     jet_wrench back = simulation_jets(launch, t, &motion.tube);
     input.tube_force = v3_add(input.tube_force, back.force);
     input.tube_moment = v3_add(input.tube_moment, back.moment);
+    mechanism_base_find_air(self->vehicle, &motion, &input);
     if (mechanism_evaluate(bodies, &input, y, &motion, y_dot, &out))
         return -1;
     memcpy(y_dot + bodies->state_count, out.power,
@@ -112,6 +113,14 @@ static int bodies_rhs(double t, const double *y, double *y_dot, void *user)
     if (self->vehicle->has_jet)
         y_dot[self->body_count - 1] = jet_power(&back, &motion.tube);
     return all_finite(self->body_count, y_dot) ? 0 : -1;
+}
+
+static int project_bodies(double t, double *y, void *user)
+{
+    const partitioned_steps *self = user;
+    const base_system *base = &launch_of(self)->launcher.base;
+    base->kind->dynamics->project(base, t, y);
+    return 0;
 }
 
 static int marching_rhs(double t, const double *y, double *y_dot, void *user)
@@ -159,7 +168,7 @@ static void split_base(const partitioned_steps *self, const double *y, double *b
     int works = base_works_at(launcher), own = self->vehicle->mechanism_works;
     part_of(y, launcher->base_at, self->marching_at, works, own, bodies);
     part_of(y, launcher->base_at + self->marching_at, self->vehicle->marching.state_count,
-            works + own, MARCHING_POWERS, marching);
+            works + own, self->marching_works, marching);
     if (self->vehicle->has_jet)
         bodies[self->body_count - 1] = y[launcher->state_count - 1];
 }
@@ -171,7 +180,7 @@ static void join_base(const partitioned_steps *self, const double *bodies, const
     int works = base_works_at(launcher), own = self->vehicle->mechanism_works;
     put_part(bodies, launcher->base_at, self->marching_at, works, own, y);
     put_part(marching, launcher->base_at + self->marching_at, self->vehicle->marching.state_count,
-             works + own, MARCHING_POWERS, y);
+             works + own, self->marching_works, y);
     if (self->vehicle->has_jet)
         y[launcher->state_count - 1] = bodies[self->body_count - 1];
 }
@@ -218,26 +227,29 @@ static ld_status go_to(integrator *part, double t_next, ld_error *error)
 // Takes chassis and wheels from their part of the state y at the last exchange to the next.
 static ld_status take_base_on(partitioned_steps *self, const double *y, ld_error *error)
 {
-    double bodies[BODIES_MOST], marching[MARCHING_MOST], rate[2][LD_MAX_STATES];
+    double bodies[BODIES_MOST], marching[MARCHING_MOST] = {0}, rate[2][LD_MAX_STATES];
+    bool rolls = self->marching != NULL;
     memcpy(self->from, y, (size_t)launch_of(self)->launcher.state_count * sizeof(double));
     split_base(self, y, bodies, marching);
     ld_status status = integrator_start(self->bodies, self->t, bodies, error);
-    if (!status)
+    if (!status && rolls)
         status = integrator_start(self->marching, self->t, marching, error);
     if (!status)
         status = go_to(self->bodies, self->t_next, error);
-    if (!status)
+    if (!status && rolls)
         status = go_to(self->marching, self->t_next, error);
     if (status)
         return status;
 
     bodies_rhs(self->t, bodies, rate[0], self);
-    marching_rhs(self->t, marching, rate[1], self);
+    if (rolls)
+        marching_rhs(self->t, marching, rate[1], self);
     join_base(self, rate[0], rate[1], self->rate_from);
     const double *chassis = integrator_state(self->bodies);
-    const double *marched = integrator_state(self->marching);
+    const double *marched = rolls ? integrator_state(self->marching) : marching;
     bodies_rhs(self->t_next, chassis, rate[0], self);
-    marching_rhs(self->t_next, marched, rate[1], self);
+    if (rolls)
+        marching_rhs(self->t_next, marched, rate[1], self);
     join_base(self, rate[0], rate[1], self->rate_to);
     join_base(self, chassis, marched, self->to);
     return LD_OK;
@@ -268,12 +280,14 @@ static ld_status exchange(partitioned_steps *self, double t, const double *y, do
     launch->latest.known = false;
     if (launcher_evaluate(&launch->launcher, &input, &launch->phase, y, out))
         return ld_fail(error, LD_ERR_NUMERIC, "the exchange at t = %.9g s has no solution", t);
-    base_frame chassis = mechanism_base_chassis(&launch->launcher.base, &input.found.mechanism);
-    chassis.q = q_from_matrix(chassis.A);
-    held_frame_take(&self->chassis, &chassis, since);
     held_frame_take(&self->tube, &input.found.mechanism.tube, since);
-    const marching_output *wheels = &out->base.report.marching;
-    held_wrench_take(&self->on_chassis, wheels->force, wheels->moment, since);
+    if (self->marching) {
+        base_frame chassis = mechanism_base_chassis(&launch->launcher.base, &input.found.mechanism);
+        chassis.q = q_from_matrix(chassis.A);
+        held_frame_take(&self->chassis, &chassis, since);
+        const marching_output *wheels = &out->base.report.marching;
+        held_wrench_take(&self->on_chassis, wheels->force, wheels->moment, since);
+    }
     held_wrench_take(&self->on_tube, out->launching.base_force, out->launching.base_moment, since);
     self->t = t;
     self->t_next = next_exchange(self, t, t_stop);
@@ -297,22 +311,26 @@ static ld_status create_base(partitioned_steps *self, const integrator_settings 
         absolute[1][i] = all->absolute[launcher->base_at + self->marching_at + i];
     }
     self->body_count = self->marching_at + self->vehicle->mechanism_works + self->vehicle->has_jet;
-    self->marching_count = self->vehicle->marching.state_count + MARCHING_POWERS;
+    self->marching_works = self->vehicle->has_wheels ? MARCHING_POWERS : 0;
+    self->marching_count = self->vehicle->marching.state_count + self->marching_works;
     integrator_settings settings = *whole;
     settings.events = NULL;
     settings.event_count = 0;
-    settings.project = NULL;
+    settings.project = launcher->base.drifts ? project_bodies : NULL;
     settings.max_step = 0;
     settings.n = (size_t)self->body_count;
     settings.rhs = bodies_rhs;
     settings.atol = atol[0];
     settings.absolute = absolute[0];
     ld_status status = integrator_create(&settings, &self->bodies, error);
+    if (status || !self->vehicle->has_wheels)
+        return status;
+    settings.project = NULL;
     settings.n = (size_t)self->marching_count;
     settings.rhs = marching_rhs;
     settings.atol = atol[1];
     settings.absolute = absolute[1];
-    return status ? status : integrator_create(&settings, &self->marching, error);
+    return integrator_create(&settings, &self->marching, error);
 }
 
 // ---- long steps ----
@@ -322,7 +340,9 @@ static ld_status create_base(partitioned_steps *self, const integrator_settings 
 
 bool partitioned_steps_apply(const launch_state *launch)
 {
-    return base_is_vehicle(&launch->launcher.base) && model_run(launch->model)->coupling_step > 0;
+    const base_system *base = &launch->launcher.base;
+    return (base_is_vehicle(base) || base_as_multibody(base)) &&
+           model_run(launch->model)->coupling_step > 0;
 }
 
 static ld_status create(propagator *object, ld_error *error)
@@ -425,6 +445,8 @@ static int64_t most_steps(const propagator *object)
     const partitioned_steps *self = (const partitioned_steps *)object;
     int64_t most = integrated_count(object);
     for (int i = 0; i < 2; i++) {
+        if (i && !self->marching)
+            continue;
         int64_t steps = integrator_steps(i ? self->marching : self->bodies);
         most = steps > most ? steps : most;
     }
@@ -435,7 +457,7 @@ static int64_t evaluations(const propagator *object)
 {
     const partitioned_steps *self = (const partitioned_steps *)object;
     return integrated_evaluations(object) + integrator_evaluations(self->bodies) +
-           integrator_evaluations(self->marching);
+           (self->marching ? integrator_evaluations(self->marching) : 0);
 }
 
 // ---- saving and loading ----
@@ -478,7 +500,8 @@ static void archive_all(propagator *object, archive *bytes)
     archive_expect(bytes, false); // no long steps
     archive_expect(bytes, true);  // subsystems apart
     integrator_archive(self->bodies, bytes);
-    integrator_archive(self->marching, bytes);
+    if (self->marching)
+        integrator_archive(self->marching, bytes);
     double *instants[] = {&self->t, &self->t_next, &self->t_first};
     for (int i = 0; i < 3; i++)
         archive_double(bytes, instants[i]);

@@ -251,9 +251,8 @@ void mechanism_base_sample(const base_system *self, double t, double *state)
     mechanism_sample(mechanism_of(self), &motion, state);
 }
 
-// Density of the air and its velocity in I about the bodies, as at the tube's rear end.
-static void find_air(const mechanism_base *self, const mechanism_motion *motion,
-                     mechanism_input *input)
+void mechanism_base_find_air(const mechanism_base *self, const mechanism_motion *motion,
+                             mechanism_input *input)
 {
     const ld_site *site = &self->model->environment.site;
     double height = motion->tube.r.y, altitude = height + (site->present ? site->altitude : 0);
@@ -327,7 +326,7 @@ int mechanism_base_evaluate(const base_system *self, const base_found *found, co
     mechanism_output *of = &output->report.mechanism;
     output->elastic = 0;
     roll(self, load, motion, state, output, &input);
-    find_air(own, motion, &input);
+    mechanism_base_find_air(own, motion, &input);
     if (self->disturbed)
         disturb(self->disturbed, &input);
     int outcome = mechanism_evaluate(mechanism_of(self), &input, state, motion, output->rate, of);

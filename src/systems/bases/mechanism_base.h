@@ -52,6 +52,10 @@ base_frame mechanism_base_carrier(const base_system *self, double t);
 // The body on the wheels, without a quaternion.
 base_frame mechanism_base_chassis(const base_system *self, const mechanism_motion *motion);
 
+// Density of the air and its velocity in I about the bodies, as at the tube's rear end.
+void mechanism_base_find_air(const mechanism_base *self, const mechanism_motion *motion,
+                             mechanism_input *input);
+
 // ---- a kind's build()
 
 // Carrier, mechanisms, wheels and air.
