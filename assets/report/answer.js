@@ -125,12 +125,13 @@ function headline(rockets, named) {
   return element("p", { className: "headline" }, element("strong", {}, said[0]), ` ${said[1]} `, element("span", {}, label));
 }
 
-// `state`: how the run ended, as a paragraph; `table`: of the launch, if there is one.
-export function answerCard({ summary, state, notes, table, ignition, named }) {
+// `state`: how the run ended, as a paragraph; `table`: of the launch, if there is one; `compared`: lines on a log.
+export function answerCard({ summary, state, notes, table, ignition, named, compared = [] }) {
   const rockets = summary?.rockets ?? [], flies = rockets.some(({ flight }) => flight);
   const count = rockets.length > 1 ? element("p", { className: "shown" }, `Smallest and largest value of ${rockets.length} rockets.`) : null;
   const rows = !summary ? [] : [...launchRows(rockets, named), ...(table ? moved(table, ignition, named) : []),
-    ...(flies ? flightRows(rockets) : []), ...measureRows(summary), energy(summary)];
+    ...(flies ? flightRows(rockets) : []), ...measureRows(summary), energy(summary),
+    ...compared.map(({ label, said, note }) => row(label, [said, ""], note))];
   return element("section", { className: "card answer", id: "answer" }, element("h2", {}, "The answer"),
     headline(rockets, named), count, element("table", {}, ...rows.filter(Boolean)), state, notesBlock(notes));
 }

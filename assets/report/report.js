@@ -1,5 +1,6 @@
 // The report of a run: replay, launcher and answer first, then the plots of each table of numbers, then all numbers.
 import { answerCard } from "./answer.js";
+import { comparedLines, showCompared } from "./compared.js";
 import { filled, readable, rowAt } from "./data.js";
 import { decodeTable, inflated } from "./decode.js";
 import { colour, download, element, onColours, themeSwitch } from "./page.js";
@@ -152,7 +153,8 @@ const nav = element("nav", {}, element("a", { href: "#answer" }, "Answer"));
 // The first screen: replay, drawing, answer.
 function overview() {
   const ignition = data.rockets[0]?.ignition ?? launch?.t[0] ?? 0;
-  const answer = answerCard({ summary, state: state(summary), notes: [...data.notes, ...summaryNotes], table: launch, ignition, named });
+  const answer = answerCard({ summary, state: state(summary), notes: [...data.notes, ...summaryNotes], table: launch, ignition, named,
+    compared: comparedLines(data.compared) });
   return element("div", { className: `overview${replayed ? "" : " alone"}` }, replayed ? place : null, answer, launch ? drawing() : null);
 }
 
@@ -167,6 +169,7 @@ function drawing() {
 
 host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
   themeSwitch()), overview());
+showCompared(host, nav, data.compared);
 const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, nav));
 if (launch && choice) chooseLaunch(0);
 if (replayed)

@@ -32,6 +32,14 @@ typedef struct ld_report {
 ///         LD_ERR_FILE (the report cannot be written; an earlier one stands) or LD_ERR_MEMORY
 ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error);
 
+/// The same with a log beside the run (launchdyn/compare.h): its series over the simulated ones,
+/// their differences and verdicts.
+/// @param log     a CSV file
+/// @param sensors what its sensors are; NULL: the file beside it
+/// @return as ld_report_write() and ld_compare()
+ld_status ld_report_write_log(const char *folder, const char *log, const char *sensors,
+                              const char *file, ld_report *report, ld_error *error);
+
 /// Writes the report of up to 8 runs laid over each other: the figures of all in one, their
 /// summaries side by side. What is broken or not there is left out with a warning.
 /// @param folder [count] of the runs

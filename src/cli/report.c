@@ -66,13 +66,26 @@ static bool holds_study(const char *folder)
     return access(path, F_OK) == 0;
 }
 
+static int write_with_log(const char *folder, const char *log, const char *sensors,
+                          const char *file)
+{
+    static ld_report report;
+    ld_error error;
+    char usual[PATH_SIZE];
+    ld_status status = ld_report_write_log(folder, log, sensors, file, &report, &error);
+    return finish(status, &error, &report, place_of(folder, file, usual), false);
+}
+
 int command_report(const command *self, int argc, char **argv)
 {
-    char *file = NULL, *launches = NULL;
+    char *file = NULL, *launches = NULL, *log = NULL, *sensors = NULL;
     const command_option options[] = {
         {"output", 'o', OPTION_TEXT, &file, "File of the report (DIR/report.html)", "FILE"},
         {"measured", '\0', OPTION_TEXT, &launches,
          "Compare studies with the measured launches in this CSV file", "FILE"},
+        {"log", '\0', OPTION_TEXT, &log, "Compare a run with this log (launchdyn compare)", "FILE"},
+        {"sensors", '\0', OPTION_TEXT, &sensors,
+         "What the log's sensors are (LOG.yaml beside LOG.csv)", "FILE"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;
@@ -83,6 +96,11 @@ int command_report(const command *self, int argc, char **argv)
         if (launches && !studies) {
             command_complain("--measured requires at least one study");
             code = EXIT_INPUT;
+        } else if (log && (line.count > 1 || studies)) {
+            command_complain("--log requires one run");
+            code = EXIT_INPUT;
+        } else if (log) {
+            code = write_with_log(line.word[0], log, sensors, file);
         } else if (line.count > 1 || studies) {
             code = write_several(line.word, line.count, studies, launches, file);
         } else {

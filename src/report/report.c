@@ -116,6 +116,7 @@ void report_free_source(report_source *source)
     history_free(&source->history);
     free(source->summary);
     ld_origin_free(&source->origin);
+    ld_comparison_free(source->comparison);
 }
 
 // ---- the file ----
@@ -137,9 +138,29 @@ static ld_status write_page(FILE *page, const void *self, const char *data, size
     return report_write_page(page, self, data, length, error);
 }
 
-ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error)
+// A log beside a run; none where `file` is NULL.
+typedef struct log_choice {
+    const char *file, *sensors;
+} log_choice;
+
+static ld_status compare_log(report_source *source, const char *folder, log_choice log,
+                             ld_error *error)
 {
-    assert(folder);
+    const ld_compare_options options = {.sensors = log.sensors};
+    const char *slash = log.file ? strrchr(log.file, '/') : NULL;
+    source->log = slash ? slash + 1 : log.file;
+    if (!log.file)
+        return LD_OK;
+    ld_status status = ld_compare(folder, log.file, &options, &source->comparison, error);
+    const char *note;
+    for (int i = 0; !status && (note = ld_comparison_note(source->comparison, i)) != NULL; i++)
+        report_take_note(source->report, "%s", note);
+    return status;
+}
+
+static ld_status write_run(const char *folder, const char *file, log_choice log, ld_report *report,
+                           ld_error *error)
+{
     ld_report unwanted;
     char usual[REPORT_PATH_SIZE];
     report = report ? report : &unwanted;
@@ -159,6 +180,8 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     bool report_broken = found && found != LD_ERR_INPUT; // the system, not the folder
     ld_status status = report_broken ? ld_fail(error, found, "%s", damage.text)
                                      : report_add_replay(&source->history, error);
+    if (!status)
+        status = compare_log(source, folder, log, error);
     if (!status && !source->has_history && !source->summary)
         status = ld_fail(error, LD_ERR_INPUT, "no results in %.200s: %s %s", folder,
                          report->note[0], report->note[report->note_count - 1]);
@@ -173,4 +196,17 @@ ld_status ld_report_write(const char *folder, const char *file, ld_report *repor
     report_free_source(source);
     free(source);
     return status;
+}
+
+ld_status ld_report_write(const char *folder, const char *file, ld_report *report, ld_error *error)
+{
+    assert(folder);
+    return write_run(folder, file, (log_choice){NULL, NULL}, report, error);
+}
+
+ld_status ld_report_write_log(const char *folder, const char *log, const char *sensors,
+                              const char *file, ld_report *report, ld_error *error)
+{
+    assert(folder && log);
+    return write_run(folder, file, (log_choice){log, sensors}, report, error);
 }

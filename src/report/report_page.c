@@ -97,6 +97,8 @@ ld_status report_write_data(FILE *json, const report_source *source, const repor
     ld_status status = report_write_run(json, source, detail, error);
     fputs(",\"geometry\":", json);
     report_write_geometry(json, &source->history);
+    fputs(",\"compared\":", json);
+    report_write_compared(json, source);
     fputs(",\"figures\":", json);
     plot_write_json(json);
     fputc('}', json);

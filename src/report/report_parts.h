@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "figures/plot.h"
+#include "launchdyn/compare.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/report.h"
 #include "launchdyn/status.h"
@@ -22,6 +23,8 @@ typedef struct report_source {
     bool has_origin;
     ld_origin origin;
     ld_report *report; // takes warnings
+    const char *log;   // the run is compared with, or NULL
+    ld_comparison *comparison;
 } report_source;
 
 // How finely curves are kept.
@@ -85,6 +88,9 @@ ld_status report_write_bytes(FILE *text, const void *bytes, size_t count, ld_err
 // object of JSON.
 ld_status report_write_run(FILE *json, const report_source *source, const report_detail *detail,
                            ld_error *error);
+
+// Writes what a run was compared with, an object of JSON in the log's units; null where it was not.
+void report_write_compared(FILE *json, const report_source *source);
 
 // Writes where a run comes from under this name, where that is known; `room`: for texts [bytes].
 ld_status report_write_run_origin(FILE *page, const char *name, const report_source *source,

@@ -292,6 +292,19 @@ static void test_command(void **state)
             " && jq -r '.results[2].name' a"),
         0);
     expect_in(shell.out, "apogee at");
+    // the report has the same, and without a log nothing of it
+    assert_int_equal(
+        run("launchdyn report out --log made.csv -o a.html && launchdyn report out -o b.html"
+            " && grep -c "
+            "'\"compared\":{\"log\":\"made.csv\",\"series\":.{\"name\":\"along\",\"unit\":"
+            "\"mm/s2\",\"verdict\":\"agree\"' a.html"
+            " && grep -c '\"compared\":null' b.html"),
+        0);
+    expect_complaint("launchdyn report out out --log made.csv -o c.html", 2,
+                     "--log requires one run");
+    expect_complaint("launchdyn report out --log none.csv", 2, "none.csv cannot be read");
+    assert_int_equal(run("launchdyn compare out made.csv -q --plot a.svg && grep -c 'u_val' a.svg"),
+                     0);
 }
 
 static void refused(const char *log, const char *yaml, const char *why)
