@@ -222,6 +222,8 @@ async function checkSwept(browser) {
   check("dots stand at their values", dots.length === shown.length && dots.every(([left, top], i) => Math.abs(x(left) - key.numbers[i]) < 0.01 * (key.numbers.at(-1) - key.numbers[0]) && Math.abs(y(top) - shown[i]) < 0.02 * span), `${JSON.stringify(dots)} ${shown}`);
   const table = launchdyn("study", "show", out, "--over", key.name, "--what", result.name).split("\n").filter((line) => line.startsWith(key.texts[value]));
   check("the pooled mean is that of study show", near(Number(table[0].split(/\s+/)[2]), 1e3 * cell.mean[0], 1e-4), table[0]);
+  const from = launchdyn("study", "show", out, "--over", key.name, "--against", `${key.name}=${key.reference}`, "--what", result.name).split("\n").find((line) => line.startsWith(key.texts[value]));
+  check("the difference is that of study show", near(Number(from.split(/\s+/)[2]), 1e3 * cell.difference[0], 1e-3), from);
   await picture(page, "swept.png");
   await leave(page);
 }

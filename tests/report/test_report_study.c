@@ -539,6 +539,12 @@ static void test_points_of_a_sweep(void **state)
     CHECK_WITHIN("values of the first point", atof(after(series, "\"count\":")), 60, 60);
     series = after(series, "\"bins\":[");
     CHECK_WITHIN("values of the second", atof(after(series, "\"count\":")), 20, 20);
+    const char *key = after(page, "\"over\":{\"keys\":[");
+    assert_non_null(strstr(key,
+                           "{\"name\":\"base.speed\",\"unit\":\"km/h\",\"texts\":[\"0 km/h\",\"15 "
+                           "km/h\"],\"numbers\":[0,15],\"reference\":\"0 km/h\"}"));
+    // of what differences are from there are none
+    assert_non_null(strstr(key, "\"difference\":[null,null,null],\"ratio\":[null,null,null]"));
     free(page);
 }
 

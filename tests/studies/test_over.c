@@ -180,6 +180,20 @@ static void test_weights(void **state)
     CHECK_BELOW("mean of the points' means", fabs(mean_of_pool().value - mean[0]), 1e-12);
     CHECK_BELOW("root of the mean of their variances",
                 fabs(deviation_of_pool().value - sqrt(variance[0])), 1e-12);
+    // what each group moves the mean by
+    double moved[12] = {0}, squares = 0;
+    for (size_t i = 0; i < pool.count; i++) {
+        const int p = pool.row[i].point;
+        moved[pool.row[i].group] += (pool.row[i].value[0] - sum[0][p] / count[p]) / count[p] / 3;
+    }
+    for (int g = 0; g < 12; g++)
+        squares += moved[g] * moved[g];
+    const estimate whole = mean_of_pool();
+    CHECK_BELOW("half the interval of the mean [relative]",
+                fabs((whole.high - whole.low) / 2 /
+                         (student_quantile(0.975, 11) * sqrt(12. / 11 * squares)) -
+                     1),
+                1e-12);
     const paired_statistics of = pairs_of_pool();
     CHECK_BELOW("difference", fabs(of.difference.value - mean[0] + mean[1]), 1e-12);
     CHECK_BELOW("ratio", fabs(of.spread.value - sqrt(variance[0] / variance[1])), 1e-12);
