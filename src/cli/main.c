@@ -65,9 +65,10 @@ static const command commands[] = {
               "the data do not tell. DATA are CSV files with a line a launch and columns by the "
               "names of results, with units; NAME_u is the standard uncertainty of NAME. Ctrl-C "
               "stops; the same command with the same --out continues.",
-     .examples = "launchdyn fit scenario.yaml launches.csv --over "
-                 "rocket.motor.thrust_scale=0.9..1.1 --out fit|Fit one key\n"
-                 "launchdyn run fit/fitted.yaml|Run the fitted scenario",
+     .examples =
+         "launchdyn fit scenario.yaml launches.csv --over rocket.mass=50..70 -o fit|Fit one "
+         "key\n"
+         "launchdyn run fit/fitted.yaml|Run the fitted scenario",
      .run = command_fit,
      .in_child = true},
     {.name = "check",
