@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/functions.h"
 #include "quantities/study_results.h"
 #include "report/report_study_numbers.h"
 #include "results/json_text.h"
@@ -136,7 +137,7 @@ static void weigh_effects(over_writer *self, int result, int key, int value, con
                         .key = key,
                         .value = value};
     over_effect spread = mean;
-    spread.size = fabs(log(r->value));
+    spread.size = fabs(portable_log(r->value));
     spread.sure = r->low > 1 || r->high < 1;
     spread.deviation = true;
     if (!is_rate(self->result[result]) && is_rate(self->result[0]))

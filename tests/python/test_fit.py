@@ -36,8 +36,8 @@ class TestFit(Case):
         self.assertEqual(fitted["rocket.lock.release_force"], key.value)
 
     def test_a_prior(self):
-        found = ld.fit(self.scenario, [self.launches], OVER, {"rocket.motor.thrust_scale": (1, 1e-6)},
-                       starts=1)
+        prior = {"rocket.motor.thrust_scale": (1, 1e-6)}
+        found = ld.fit(self.scenario, [self.launches], OVER, prior, starts=1)
         self.assertAlmostEqual(found.keys["rocket.motor.thrust_scale"].value, 1, 4)
         self.assertLess(found.keys["rocket.motor.thrust_scale"].deviation, 1.1e-6)
 

@@ -135,9 +135,9 @@ static void test_boxes(void **state)
 static void test_mesh(void **state)
 {
     (void)state;
-    static const char *const sets[] = {"base.bodies.boom.looks.mesh=[[1 m, 0 m, 0 m, 3 m, 0 m, 0 "
-                                       "m, 1 m, 4 m, -1 m, 0.25, 0.5, 1]]",
-                                       "base.bodies.boom.looks.at=0.1 0.2 0.3 m",
+    static const char mesh_rows[] = "base.bodies.boom.looks.mesh=[[1 m, 0 m, 0 m, 3 m, 0 m, 0 m, "
+                                    "1 m, 4 m, -1 m, 0.25, 0.5, 1]]";
+    static const char *const sets[] = {mesh_rows, "base.bodies.boom.looks.at=0.1 0.2 0.3 m",
                                        "base.bodies.boom.looks.attitude=90 0 0 deg",
                                        "base.bodies.boom.looks.scale=0.5"};
     static const double corner[3][3] = {{1, 0, 0}, {3, 0, 0}, {1, 4, -1}};
