@@ -50,7 +50,8 @@ static const command commands[] = {
          "launchdyn study scenario.yaml --out out -j 4|Run or continue, four samples at a time\n"
          "launchdyn study show out --what exit_speed,pitch_rate|Statistics of two "
          "results\n"
-         "launchdyn study plot out --over rocket.lock.release_force -o lock.svg|Results over a swept key, with "
+         "launchdyn study plot out --over rocket.lock.release_force -o lock.svg|Results over a "
+         "swept key, with "
          "intervals\n"
          "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,
