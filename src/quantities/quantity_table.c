@@ -15,7 +15,7 @@
 // The first name of the joints of a kind.
 static const char *joints_of(const ld_mechanism *parts, ld_joint_kind kind)
 {
-    return parts->joint_name[0] + (size_t)parts->named[kind].first * sizeof parts->joint_name[0];
+    return (const char *)(parts->joint_name + parts->named[kind].first);
 }
 
 quantity_things quantity_things_of(const ld_model *model)

@@ -143,7 +143,7 @@ static void test_own_scenarios_are_silent(void **state)
                                            "examples/marching/*.yaml",
                                            "examples/stabilisers/*.yaml",
                                            "examples/rail/*.yaml",
-                                           "examples/student-rocket/*.yaml",
+                                           "examples/student-rocket/student-rocket.yaml",
                                            "tests/data/nesc/*.yaml",
                                            "examples/multibody/*.yaml",
                                            "tests/faults/base.yaml",

@@ -21,6 +21,7 @@
 // Names of results, of a rocket with two adaptors: those that the tests ask for, each of which
 // costs as much as another, or all.
 static char study_name[128][QUANTITY_NAME];
+static double study_factor[128]; // to the unit of study show
 static int results;
 
 static bool asked_for(const char *name)
@@ -41,6 +42,7 @@ static void name_results(bool all)
                                     .stride = {[EACH_ADAPTOR] = sizeof adaptors[0]}};
     for (quantity_walk at = study_result_first(&things); at.row; study_result_next(&at)) {
         study_result_name(&at, study_name[results]);
+        study_factor[results] = study_result_unit(study_name[results], at.row->unit).factor;
         results += all || asked_for(study_name[results]);
     }
 }
@@ -266,9 +268,12 @@ static void test_numbers_are_those_of_show(void **state)
         double e[3] = {0};
         const char *series = after(result_named(page, study_name[k]), "\"series\":[");
         read_numbers(after(series, "\"mean\":"), e, 3);
-        e[1] = 0.5 * (e[2] - e[1]);
+        e[0] *= study_factor[k];
+        e[1] = 0.5 * (e[2] - e[1]) * study_factor[k];
         expect_line(shown, "%.6g +- %.2g", e);
         read_numbers(after(series, "\"deviation\":"), e, 3);
+        for (int i = 0; i < 3; i++)
+            e[i] *= study_factor[k];
         expect_line(shown, "%.4g [%.4g, %.4g]", e);
     }
     const char *ellipse = after(after(page, "\"x\":\"downrange\""), "\"ellipse\":");
