@@ -2,6 +2,8 @@
 
 #include "launchdyn/scenario.h"
 #include "launchdyn/study.h"
+#include "model/blocks/study.h"
+#include "model/parts.h"
 
 // The first message, as a sentence.
 static ld_status fail_by(ld_status status, ld_messages *messages, ld_error *error)
@@ -110,6 +112,11 @@ ld_status further_run(const further_runs *self, const run_overrides *overrides, 
 ld_status further_run_sample(const further_runs *self, int number, int rocket, run_taker *take,
                              void *data, ld_error *error)
 {
+    const ld_scatter *scatter = model_scatter(self->model);
+    if (!scatter->present || number > scatter->samples)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "samples: the scenario of the run has %d (scatter.samples)",
+                       scatter->present ? scatter->samples : 0);
     one_run run = {self->model, self->options, rocket, take, data};
     return run_sample(&run, number, error);
 }

@@ -277,7 +277,7 @@ static ld_status keep_result(measured *launches, const char *name, const study_d
     name_suggestion suggestion = suggestion_begin(name);
     for (int i = 0; i < launches->results; i++) {
         const measured_result found = launches->result[i];
-        suggestion_offer(&suggestion, found.name);
+        suggestion_offer(&suggestion, launches->result[i].name);
         if (strcmp(found.name, column ? column->name : name) != 0)
             continue;
         if (i >= *kept) {
