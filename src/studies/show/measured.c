@@ -291,6 +291,13 @@ static ld_status keep_result(measured *launches, const char *name, const study_d
                    suggestion.name ? suggestion.name : "", suggestion.name ? "\"?" : "");
 }
 
+static void free_result(measured_result *result)
+{
+    free(result->value);
+    free(result->group);
+    free(result->launch);
+}
+
 ld_status measured_choose(measured *launches, const char *names, const study_data *data,
                           ld_error *error)
 {
@@ -303,21 +310,16 @@ ld_status measured_choose(measured *launches, const char *names, const study_dat
     free(copy);
     if (!status && kept == 0)
         status = ld_fail(error, LD_ERR_INPUT, "--what: \"%.100s\" names no result", names);
-    for (int i = kept; i < launches->results && !status; i++) {
-        free(launches->result[i].value);
-        free(launches->result[i].group);
-    }
+    for (int i = kept; i < launches->results && !status; i++)
+        free_result(&launches->result[i]);
     launches->results = status ? launches->results : kept;
     return status;
 }
 
 void measured_free(measured *launches)
 {
-    for (int i = 0; i < launches->results; i++) {
-        free(launches->result[i].value);
-        free(launches->result[i].group);
-        free(launches->result[i].launch);
-    }
+    for (int i = 0; i < launches->results; i++)
+        free_result(&launches->result[i]);
     free(launches->result);
     *launches = (measured){0};
 }
