@@ -12,6 +12,7 @@
 #include "quantities/summary.h"
 #include "run/simulation_build.h"
 #include "state/simulation.h"
+#include "studies/run/worker.h"
 
 static ld_status no_memory(ld_error *error)
 {
@@ -130,20 +131,6 @@ static void *work(void *user)
     return NULL;
 }
 
-static int start_thread(pthread_t *thread, batch *self)
-{
-    enum { STACK = 8 << 20 }; // whatever the limit of this process, by which it would be chosen
-    pthread_attr_t attributes;
-    int problem = pthread_attr_init(&attributes);
-    if (problem)
-        return problem;
-    problem = pthread_attr_setstacksize(&attributes, STACK);
-    if (!problem)
-        problem = pthread_create(thread, &attributes, work, self);
-    pthread_attr_destroy(&attributes);
-    return problem;
-}
-
 static ld_status work_side_by_side(batch *self)
 {
     fit_launches *all = self->self;
@@ -153,7 +140,7 @@ static ld_status work_side_by_side(batch *self)
     if (!thread)
         return no_memory(self->error);
     while (!problem && started < others) {
-        problem = start_thread(&thread[started], self);
+        problem = worker_start_thread(&thread[started], work, self);
         started += !problem;
     }
     if (problem) {

@@ -101,8 +101,9 @@ bool fit_state_next(fit_state *self, const double *point, double *residual, bool
         // damaged, or of another machine: what follows is computed again
         free(self->text);
         self->text = NULL;
-        whole = fseeko(self->file, (off_t)self->at, SEEK_SET) == 0 &&
-                ftruncate(fileno(self->file), (off_t)self->at) == 0;
+        if (fseeko(self->file, (off_t)self->at, SEEK_SET) != 0 ||
+            ftruncate(fileno(self->file), (off_t)self->at) != 0)
+            self->uncut = errno;
         return false;
     }
     memcpy(&flag, record + keys, sizeof flag);
@@ -119,6 +120,10 @@ ld_status fit_state_put(fit_state *self, const double *point, const double *resi
     double flag = there;
     if (!self->file)
         return LD_OK;
+    if (self->uncut) {
+        errno = self->uncut;
+        return cannot(self, "cut what is damaged off", error);
+    }
     char *record = calloc(1, size);
     if (!record)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the fit's state");

@@ -15,6 +15,7 @@ typedef struct fit_state {
     int keys, residuals;
     char *text; // what was there
     size_t length, at;
+    int uncut; // errno by which a damaged rest could not be cut off
 } fit_state;
 
 // Opens the file, which it may make; folder NULL: keeps nothing. `identity` says what the fit is

@@ -247,7 +247,7 @@ static void *run_all(void *ledger)
     return NULL;
 }
 
-int worker_start(pthread_t *thread, study_ledger *ledger)
+int worker_start_thread(pthread_t *thread, void *(*work)(void *), void *data)
 {
     enum { STACK = 8 << 20 }; // whatever the limit of this process, by which it would be chosen
     pthread_attr_t attributes;
@@ -256,9 +256,14 @@ int worker_start(pthread_t *thread, study_ledger *ledger)
         return problem;
     problem = pthread_attr_setstacksize(&attributes, STACK);
     if (!problem)
-        problem = pthread_create(thread, &attributes, run_all, ledger);
+        problem = pthread_create(thread, &attributes, work, data);
     pthread_attr_destroy(&attributes);
     return problem;
+}
+
+int worker_start(pthread_t *thread, study_ledger *ledger)
+{
+    return worker_start_thread(thread, run_all, ledger);
 }
 
 void worker_run_side_by_side(study_ledger *ledger, int threads)

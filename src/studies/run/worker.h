@@ -25,7 +25,11 @@ void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void 
 // Runs samples that the ledger hands out until there are no more: the work of one thread.
 void worker_run_all(study_ledger *ledger);
 
-// Starts a thread that does so; returns 0, or why there is none (an errno).
+// Starts a thread with a stack of the size that launches need; returns 0, or why there is none (an
+// errno).
+int worker_start_thread(pthread_t *thread, void *(*work)(void *), void *data);
+
+// Starts a thread that runs samples so; returns 0, or why there is none (an errno).
 int worker_start(pthread_t *thread, study_ledger *ledger);
 
 // The same on `threads` threads (fewer than 1 are one), of which the caller's is one. One that
