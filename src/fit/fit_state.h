@@ -1,12 +1,12 @@
 // What a fit has computed so far, in the file DIR/fit.state: a fit that was stopped computes the
 // same points in the same order and finds them there.
-#ifndef LD_STUDIES_FIT_STATE_H
-#define LD_STUDIES_FIT_STATE_H
+#ifndef LD_FIT_STATE_H
+#define LD_FIT_STATE_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "studies/fit/fit.h"
+#include "fit/fit.h"
 
 typedef struct fit_state {
     FILE *file; // NULL: nothing is kept

@@ -1,8 +1,8 @@
 // What a fit shows, as text and as JSON.
-#ifndef LD_STUDIES_FIT_SHOW_H
-#define LD_STUDIES_FIT_SHOW_H
+#ifndef LD_FIT_SHOW_H
+#define LD_FIT_SHOW_H
 
-#include "studies/fit/fit.h"
+#include "fit/fit.h"
 
 // Standard uncertainty of a launch's mean result, SI.
 double fit_cell_deviation(const fit_launch *launch, int cell);

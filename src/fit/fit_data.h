@@ -1,7 +1,7 @@
 // Measured launches as a fit compares them: those alike in one, by the means of their results with
 // the matrix of weights that the launches give these.
-#ifndef LD_STUDIES_FIT_DATA_H
-#define LD_STUDIES_FIT_DATA_H
+#ifndef LD_FIT_DATA_H
+#define LD_FIT_DATA_H
 
 #include "model/fields/field.h"
 #include "quantities/study_results.h"

@@ -1,13 +1,13 @@
 // The launches of a fit: residuals of data at points of the cube, computed side by side, or taken
 // from what was kept.
-#ifndef LD_STUDIES_FIT_LAUNCHES_H
-#define LD_STUDIES_FIT_LAUNCHES_H
+#ifndef LD_FIT_LAUNCHES_H
+#define LD_FIT_LAUNCHES_H
 
 #include <pthread.h>
 
+#include "fit/fit.h"
+#include "fit/fit_state.h"
 #include "launchdyn/simulation.h"
-#include "studies/fit/fit.h"
-#include "studies/fit/fit_state.h"
 
 // One who simulates, one launch after the other.
 typedef struct fit_worker {

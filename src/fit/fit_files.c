@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "base/part_file.h"
+#include "fit/fit_show.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
 #include "model/fields/source.h"
 #include "model/model.h"
 #include "results/json.h"
-#include "studies/fit/fit_show.h"
 
 // ---- JSON
 

@@ -1,4 +1,4 @@
-#include "studies/fit/fit_state.h"
+#include "fit/fit_state.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,10 +1,10 @@
 // A fit: keys, data, and what was found.
-#ifndef LD_STUDIES_FIT_H
-#define LD_STUDIES_FIT_H
+#ifndef LD_FIT_H
+#define LD_FIT_H
 
+#include "fit/fit_data.h"
+#include "fit/minimum.h"
 #include "launchdyn/fit.h"
-#include "studies/fit/fit_data.h"
-#include "studies/fit/minimum.h"
 
 typedef struct fit_key {
     field_place place;

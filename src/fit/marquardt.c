@@ -1,4 +1,4 @@
-#include "studies/fit/marquardt.h"
+#include "fit/marquardt.h"
 
 #include <cminpack.h>
 #include <stdlib.h>

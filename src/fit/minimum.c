@@ -1,4 +1,4 @@
-#include "studies/fit/minimum.h"
+#include "fit/minimum.h"
 
 #include <math.h>
 #include <stdio.h>

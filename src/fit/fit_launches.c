@@ -1,4 +1,4 @@
-#include "studies/fit/fit_launches.h"
+#include "fit/fit_launches.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,11 +1,11 @@
 // The minimum of a least-squares problem, from several starts, and what surrounds it: covariance,
 // directions that the data tell, profiles.
-#ifndef LD_STUDIES_MINIMUM_H
-#define LD_STUDIES_MINIMUM_H
+#ifndef LD_FIT_MINIMUM_H
+#define LD_FIT_MINIMUM_H
 
 #include <stdint.h>
 
-#include "studies/fit/marquardt.h"
+#include "fit/marquardt.h"
 
 enum { FIT_MOST_STARTS = 1000 };
 

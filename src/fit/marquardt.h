@@ -1,7 +1,7 @@
 // Least squares between bounds, from one start: MINPACK's Levenberg-Marquardt (cminpack) on angles
 // u with p = (1 + sin u)/2, so that no step leaves the unit cube.
-#ifndef LD_STUDIES_MARQUARDT_H
-#define LD_STUDIES_MARQUARDT_H
+#ifndef LD_FIT_MARQUARDT_H
+#define LD_FIT_MARQUARDT_H
 
 #include <stdbool.h>
 

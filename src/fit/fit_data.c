@@ -1,4 +1,4 @@
-#include "studies/fit/fit_data.h"
+#include "fit/fit_data.h"
 
 #include <math.h>
 #include <stdlib.h>

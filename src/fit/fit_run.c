@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "fit/fit_launches.h"
 #include "math/curves/distributions.h"
 #include "results/folder.h"
-#include "studies/fit/fit_launches.h"
 
 enum { USUAL_STARTS = 4 };
 

@@ -1,4 +1,4 @@
-#include "studies/fit/fit_show.h"
+#include "fit/fit_show.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/printed.h"
+#include "fit/fit.h"
 #include "launchdyn/scenario.h"
 #include "model/parts.h"
 #include "scenario/scenario_reader.h"
-#include "studies/fit/fit.h"
 
 // Reads one of the numbers of a key, called `what`.
 static ld_status read_number(const ld_fit_key *key, const fit_key *self, const char *what,

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 #include "base/random.h"
+#include "fit/minimum.h"
 #include "math/functions.h"
-#include "studies/fit/minimum.h"
 
 enum { KEYS = 4, ROWS = 12 };
 
