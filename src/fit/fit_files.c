@@ -1,16 +1,13 @@
 #include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/part_file.h"
 #include "fit/fit_show.h"
-#include "launchdyn/scenario.h"
 #include "launchdyn/version.h"
-#include "model/fields/source.h"
-#include "model/model.h"
 #include "results/json.h"
+#include "search/found_scenario.h"
 
 // ---- JSON
 
@@ -144,109 +141,17 @@ void ld_fit_print_json(const ld_fit *fit, FILE *stream)
     fputs("\n", stream);
 }
 
-// ---- the scenario
-
-// Where the parts of two paths differ first: the number of characters before that part.
-static size_t shared_parts(const char *a, const char *b)
-{
-    size_t shared = 0;
-    for (size_t i = 0; a[i] && a[i] == b[i]; i++)
-        if (a[i] == '.')
-            shared = i + 1;
-    return shared;
-}
-
-static int by_path(const void *left, const void *right)
-{
-    const fit_key *a = *(const fit_key *const *)left, *b = *(const fit_key *const *)right;
-    return strcmp(a->place.path, b->place.path);
-}
-
-// The keys as nested blocks, in the order of their paths.
-static void write_blocks(const ld_fit *fit, FILE *stream)
-{
-    const fit_key *sorted[FIT_MOST_KEYS];
-    const char *before = "";
-    for (int i = 0; i < fit->keys; i++)
-        sorted[i] = &fit->key[i];
-    qsort(sorted, (size_t)fit->keys, sizeof(const fit_key *), by_path);
-    for (int i = 0; i < fit->keys; i++) {
-        const char *path = sorted[i]->place.path;
-        size_t at = shared_parts(before, path);
-        int depth = 0;
-        for (size_t k = 0; k < at; k++)
-            depth += path[k] == '.';
-        for (const char *part = path + at; part; depth++) {
-            int length = (int)strcspn(part, ".");
-            fprintf(stream, "%*s%.*s:", 2 * depth, "", length, part);
-            part = part[length] ? part + length + 1 : NULL;
-            if (part)
-                fputs("\n", stream);
-        }
-        char number[32];
-        field_number_text(fit->estimate[sorted[i] - fit->key].value, number);
-        fprintf(stream, " %s%s%s\n", number, sorted[i]->unit[0] ? " " : "", sorted[i]->unit);
-        before = path;
-    }
-}
-
-// The way from a folder to the scenario's file, both absolute.
-static void write_way(const char *folder, const char *file, FILE *stream)
-{
-    size_t shared = 0;
-    for (size_t i = 0; folder[i] == file[i] && file[i]; i++)
-        if (file[i] == '/')
-            shared = i + 1;
-    size_t length = strlen(folder);
-    if (strncmp(folder, file, length) == 0 && file[length] == '/')
-        shared = length + 1;
-    for (size_t i = shared; i < length; i++)
-        if (i == shared || folder[i] == '/')
-            fputs("../", stream);
-    fputs(file + shared, stream);
-}
-
-// Whether the scenario can be included: it is a file, as it stands.
-static bool can_include(const ld_model *model, char file[PATH_MAX])
-{
-    const ld_source *source = ld_model_source(model);
-    char path[PATH_MAX];
-    if (!source || !source->folder || source->set_count > 0 || source->file_count == 0)
-        return false;
-    int length = snprintf(path, sizeof path, "%s%s%s", source->folder, source->folder[0] ? "/" : "",
-                          source->file[0]->name);
-    return length > 0 && length < PATH_MAX && realpath(path, file);
-}
-
-// With overrides or without a file: all of it; false: no memory.
-static bool write_whole(const ld_fit *fit, FILE *stream)
-{
-    ld_model *fitted = malloc(sizeof *fitted);
-    if (!fitted)
-        return false;
-    *fitted = *fit->model;
-    model_forget(fitted);
-    for (int i = 0; i < fit->keys; i++)
-        field_set(fitted, &fit->key[i].place, fit->estimate[i].value);
-    model_complete(fitted);
-    ld_model_print(fitted, stream);
-    free(fitted);
-    return true;
-}
-
-static bool write_scenario(const ld_fit *fit, const char *folder, FILE *stream)
-{
-    char file[PATH_MAX], there[PATH_MAX];
-    if (!can_include(fit->model, file) || !realpath(folder, there))
-        return write_whole(fit, stream);
-    fputs("# The scenario with the fitted values (launchdyn fit).\ninclude: \"", stream);
-    write_way(there, file, stream);
-    fputs("\"\n", stream);
-    write_blocks(fit, stream);
-    return true;
-}
-
 // ---- files
+
+static bool write_fitted(const ld_fit *fit, const char *folder, FILE *stream)
+{
+    found_key key[FIT_MOST_KEYS];
+    for (int i = 0; i < fit->keys; i++)
+        key[i] = (found_key){&fit->key[i].place, fit->key[i].unit, fit->estimate[i].value};
+    const found_scenario found = {
+        .model = fit->model, .how = "fitted values (launchdyn fit)", .keys = fit->keys, .key = key};
+    return found_scenario_write(&found, folder, stream);
+}
 
 static ld_status write_file(const ld_fit *fit, const char *folder, const char *name, bool json,
                             ld_error *error)
@@ -264,7 +169,7 @@ static ld_status write_file(const ld_fit *fit, const char *folder, const char *n
     if (json)
         ld_fit_print_json(fit, stream);
     else
-        good = write_scenario(fit, folder, stream);
+        good = write_fitted(fit, folder, stream);
     good = good && !ferror(stream);
     good = fclose(stream) == 0 && good;
     return part_file_end(&part, good ? LD_OK : part_file_failed(&part, errno, error), error);

@@ -176,8 +176,8 @@ ld_status fit_launches_evaluate(void *user, int count, const double *points, dou
 {
     fit_launches *self = user;
     int keys = self->fit->keys, rows = self->fit->data.residuals, known = 0;
-    while (known < count && fit_state_next(&self->state, &points[known * keys],
-                                           &residuals[known * rows], &there[known]))
+    while (known < count && search_state_next(&self->state, &points[known * keys],
+                                              &residuals[known * rows], &there[known]))
         known++;
     self->counts.launches += known * (int64_t)self->fit->data.launches;
     if (known == count)
@@ -185,9 +185,9 @@ ld_status fit_launches_evaluate(void *user, int count, const double *points, dou
     ld_status status = compute(self, count - known, &points[known * keys], &residuals[known * rows],
                                &there[known], error);
     for (int i = known; i < count && !status; i++)
-        status =
-            fit_state_put(&self->state, &points[i * keys], &residuals[i * rows], there[i], error);
-    return status ? status : fit_state_flush(&self->state, error);
+        status = search_state_put(&self->state, &points[i * keys], &residuals[i * rows], there[i],
+                                  error);
+    return status ? status : search_state_flush(&self->state, error);
 }
 
 void fit_launches_stage(void *user, const char *text, double chi2)
@@ -255,15 +255,16 @@ ld_status fit_launches_open(fit_launches *self, const ld_fit *fit, const ld_fit_
                            .counts = {.chi2 = NAN, .stage = ""}};
     char *identity = identity_of(fit, options);
     ld_status status = identity ? make_workers(self, error) : no_memory(error);
+    const search_kind kind = {"fit", fit->keys, fit->data.residuals};
     if (!status)
-        status = fit_state_open(&self->state, fit, options->folder, identity, error);
+        status = search_state_open(&self->state, &kind, options->folder, identity, error);
     free(identity);
     return status;
 }
 
 void fit_launches_close(fit_launches *self)
 {
-    fit_state_close(&self->state);
+    search_state_close(&self->state);
     for (int i = 0; self->worker && i < self->threads; i++) {
         ld_simulation_free(self->worker[i].simulation);
         free(self->worker[i].model);

@@ -6,8 +6,8 @@
 #include <pthread.h>
 
 #include "fit/fit.h"
-#include "fit/fit_state.h"
 #include "launchdyn/simulation.h"
+#include "search/search_state.h"
 
 // One who simulates, one launch after the other.
 typedef struct fit_worker {
@@ -19,7 +19,7 @@ typedef struct fit_worker {
 typedef struct fit_launches {
     const ld_fit *fit;
     const ld_fit_options *options;
-    fit_state state;
+    search_state state;
     int threads;
     fit_worker *worker; // [threads]
     ld_fit_counts counts;

@@ -1,4 +1,4 @@
-#include "fit/fit_state.h"
+#include "search/search_state.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -14,10 +14,10 @@
 
 enum { HEAD = 96, MOST_BYTES = 1 << 30 };
 
-// A record: point, whether there is a launch, residuals; then a digest of these bytes.
-static size_t record_size(const fit_state *self)
+// A record: point, whether there is a launch, numbers; then a digest of these bytes.
+static size_t record_size(const search_state *self)
 {
-    return (size_t)(self->keys + 1 + self->residuals) * sizeof(double);
+    return (size_t)(self->keys + 1 + self->numbers) * sizeof(double);
 }
 
 // FNV-1a.
@@ -30,13 +30,13 @@ static uint64_t digest_of(const void *bytes, size_t size)
     return hash;
 }
 
-static ld_status cannot(const fit_state *self, const char *what, ld_error *error)
+static ld_status cannot(const search_state *self, const char *what, ld_error *error)
 {
     return ld_fail(error, LD_ERR_FILE, "cannot %s %.300s: %s", what, self->path, strerror(errno));
 }
 
 // Reads what is there; nothing where there is no file.
-static ld_status read_file(fit_state *self, const char *head, ld_error *error)
+static ld_status read_file(search_state *self, const char *head, ld_error *error)
 {
     ld_error why;
     struct stat there;
@@ -47,14 +47,14 @@ static ld_status read_file(fit_state *self, const char *head, ld_error *error)
         return ld_fail(error, status, "%.300s %s", self->path, why.text);
     if (self->length < HEAD || memcmp(self->text, head, HEAD) != 0)
         return ld_fail(error, LD_ERR_INPUT,
-                       "%.300s is of a fit of another scenario, other keys or other data, or of "
-                       "another version; use another folder",
+                       "%.300s is of another scenario, other keys or other data, or of another "
+                       "version; use another folder",
                        self->path);
     self->at = HEAD;
     return LD_OK;
 }
 
-static ld_status open_file(fit_state *self, const char *head, ld_error *error)
+static ld_status open_file(search_state *self, const char *head, ld_error *error)
 {
     ld_status status = read_file(self, head, error);
     if (status)
@@ -67,26 +67,26 @@ static ld_status open_file(fit_state *self, const char *head, ld_error *error)
     return LD_OK;
 }
 
-ld_status fit_state_open(fit_state *self, const ld_fit *fit, const char *folder,
-                         const char *identity, ld_error *error)
+ld_status search_state_open(search_state *self, const search_kind *kind, const char *folder,
+                            const char *identity, ld_error *error)
 {
     char head[HEAD + 1] = "";
-    *self = (fit_state){.lock = -1, .keys = fit->keys, .residuals = fit->data.residuals};
+    *self = (search_state){.lock = -1, .keys = kind->keys, .numbers = kind->numbers};
     if (!folder)
         return LD_OK;
-    int length = snprintf(self->path, sizeof self->path, "%s/fit.state", folder);
-    snprintf(self->lock_path, sizeof self->lock_path, "%s/fit.lock", folder);
+    int length = snprintf(self->path, sizeof self->path, "%s/%s.state", folder, kind->what);
+    snprintf(self->lock_path, sizeof self->lock_path, "%s/%s.lock", folder, kind->what);
     if (length < 0 || (size_t)length >= sizeof self->path)
         return ld_fail(error, LD_ERR_INPUT, "the folder's name is too long");
-    int written = snprintf(head, sizeof head, "launchdyn fit 1, version %.20s, %016" PRIx64,
-                           LD_VERSION, digest_of(identity, strlen(identity)));
+    int written = snprintf(head, sizeof head, "launchdyn %s 1, version %.20s, %016" PRIx64,
+                           kind->what, LD_VERSION, digest_of(identity, strlen(identity)));
     memset(head + written, ' ', (size_t)(HEAD - written));
     head[HEAD - 1] = '\n';
     ld_status status = lock_file_take(self->lock_path, folder, &self->lock, error);
     return status ? status : open_file(self, head, error);
 }
 
-bool fit_state_next(fit_state *self, const double *point, double *residual, bool *there)
+bool search_state_next(search_state *self, const double *point, double *number, bool *there)
 {
     size_t size = record_size(self), keys = (size_t)self->keys * sizeof(double);
     uint64_t digest;
@@ -107,14 +107,14 @@ bool fit_state_next(fit_state *self, const double *point, double *residual, bool
         return false;
     }
     memcpy(&flag, record + keys, sizeof flag);
-    memcpy(residual, record + keys + sizeof flag, (size_t)self->residuals * sizeof *residual);
+    memcpy(number, record + keys + sizeof flag, (size_t)self->numbers * sizeof *number);
     *there = flag != 0;
     self->at += size + sizeof digest;
     return true;
 }
 
-ld_status fit_state_put(fit_state *self, const double *point, const double *residual, bool there,
-                        ld_error *error)
+ld_status search_state_put(search_state *self, const double *point, const double *number,
+                           bool there, ld_error *error)
 {
     size_t size = record_size(self), keys = (size_t)self->keys * sizeof(double);
     double flag = there;
@@ -126,11 +126,11 @@ ld_status fit_state_put(fit_state *self, const double *point, const double *resi
     }
     char *record = calloc(1, size);
     if (!record)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the fit's state");
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for what was computed");
     memcpy(record, point, keys);
     memcpy(record + keys, &flag, sizeof flag);
     if (there)
-        memcpy(record + keys + sizeof flag, residual, (size_t)self->residuals * sizeof *residual);
+        memcpy(record + keys + sizeof flag, number, (size_t)self->numbers * sizeof *number);
     uint64_t digest = digest_of(record, size);
     bool good = fwrite(record, 1, size, self->file) == size &&
                 fwrite(&digest, 1, sizeof digest, self->file) == sizeof digest;
@@ -138,17 +138,17 @@ ld_status fit_state_put(fit_state *self, const double *point, const double *resi
     return good ? LD_OK : cannot(self, "write", error);
 }
 
-ld_status fit_state_flush(fit_state *self, ld_error *error)
+ld_status search_state_flush(search_state *self, ld_error *error)
 {
     return !self->file || fflush(self->file) == 0 ? LD_OK : cannot(self, "write", error);
 }
 
-void fit_state_close(fit_state *self)
+void search_state_close(search_state *self)
 {
     if (self->file)
         fclose(self->file);
     if (self->lock >= 0)
         lock_file_remove(self->lock_path, self->lock);
     free(self->text);
-    *self = (fit_state){.lock = -1};
+    *self = (search_state){.lock = -1};
 }
