@@ -42,7 +42,21 @@ static const struct {
     {"bar", {1e5, {[KILOGRAM] = 1, [METRE] = -1, [SECOND] = -2}}},
     {"J", {1, {[KILOGRAM] = 1, [METRE] = 2, [SECOND] = -2}}},
     {"W", {1, {[KILOGRAM] = 1, [METRE] = 2, [SECOND] = -3}}},
+    {"ft", {0.3048, {[METRE] = 1}}},
+    {"mi", {1609.344, {[METRE] = 1}}},
+    {"lb", {0.45359237, {[KILOGRAM] = 1}}},
+    {"lbf", {4.4482216152605, {[KILOGRAM] = 1, [METRE] = 1, [SECOND] = -2}}},
+    {"psi", {6894.757293168361, {[KILOGRAM] = 1, [METRE] = -1, [SECOND] = -2}}},
     {"%", {1e-2, {0}}},
+};
+
+// Accelerations that look like masses: they are meant where an acceleration is requested.
+static const struct {
+    const char *symbol;
+    measure is;
+} falls[] = {
+    {"g", {9.80665, {[METRE] = 1, [SECOND] = -2}}},
+    {"mg", {9.80665e-3, {[METRE] = 1, [SECOND] = -2}}},
 };
 
 static const struct {
@@ -52,17 +66,19 @@ static const struct {
                 {'h', 1e2},  {'k', 1e3},  {'M', 1e6},  {'G', 1e9}};
 
 // Common units, for suggestions, and slips that are not a matter of spelling.
-static const char *const common[] = {"m",   "mm", "cm",  "um", "km",  "kg",   "g",   "t",   "s",
-                                     "ms",  "us", "min", "h",  "rad", "mrad", "deg", "rev", "Hz",
-                                     "kHz", "N",  "kN",  "MN", "Pa",  "hPa",  "kPa", "MPa", "GPa",
-                                     "bar", "J",  "kJ",  "W",  "kW",  "rpm",  "K"};
+static const char *const common[] = {
+    "m",   "mm",   "cm",  "um",  "km", "kg",  "g",   "t",  "s",  "ms", "us",  "min", "h",
+    "rad", "mrad", "deg", "rev", "Hz", "kHz", "N",   "kN", "MN", "Pa", "hPa", "kPa", "MPa",
+    "GPa", "bar",  "J",   "kJ",  "W",  "kW",  "rpm", "K",  "ft", "mi", "lb",  "lbf", "psi"};
 static const struct {
     const char *wrong, *right;
-} slips[] = {{"kph", "km/h"}, {"kmh", "km/h"},   {"mps", "m/s"},    {"Nm", "N.m"},
-             {"Ns", "N.s"},   {"sec", "s"},      {"degree", "deg"}, {"degrees", "deg"},
-             {"cycle", "Hz"}, {"kgm2", "kg.m2"}, {"tonne", "t"},    {"micron", "um"},
-             {"msec", "ms"},  {"hour", "h"},     {"newton", "N"},   {"meter", "m"},
-             {"metre", "m"},  {"radian", "rad"}, {"percent", "%"}};
+} slips[] = {
+    {"kph", "km/h"}, {"kmh", "km/h"},   {"mps", "m/s"},     {"Nm", "N.m"},    {"Ns", "N.s"},
+    {"sec", "s"},    {"degree", "deg"}, {"degrees", "deg"}, {"cycle", "Hz"},  {"kgm2", "kg.m2"},
+    {"tonne", "t"},  {"micron", "um"},  {"msec", "ms"},     {"hour", "h"},    {"newton", "N"},
+    {"meter", "m"},  {"metre", "m"},    {"radian", "rad"},  {"percent", "%"}, {"feet", "ft"},
+    {"foot", "ft"},  {"fps", "ft/s"},   {"mph", "mi/h"},    {"mile", "mi"},   {"miles", "mi"},
+    {"G", "g"},      {"Gs", "g"},       {"gee", "g"},       {"lbs", "lb"}};
 
 static bool find_symbol(const char *name, size_t length, measure *out)
 {
@@ -152,6 +168,18 @@ static units_result read_product(const char *text, measure *product, char unknow
     }
 }
 
+// Standard gravity by its symbol, where `to` is an acceleration.
+static bool find_fall(const char *text, const measure *to, measure *from)
+{
+    for (size_t i = 0; i < sizeof falls / sizeof falls[0]; i++)
+        if (strcmp(falls[i].symbol, text) == 0 &&
+            memcmp(falls[i].is.power, to->power, sizeof to->power) == 0) {
+            *from = falls[i].is;
+            return true;
+        }
+    return false;
+}
+
 units_result units_factor(const char *text, const char *target, double *factor, char unknown[32])
 {
     measure from, to = {.factor = 1};
@@ -162,7 +190,7 @@ units_result units_factor(const char *text, const char *target, double *factor, 
         return result;
     if (target[0] && read_product(target, &to, ours) != UNITS_OK)
         return UNITS_DIMENSION;
-    if (memcmp(from.power, to.power, sizeof from.power) != 0)
+    if (memcmp(from.power, to.power, sizeof from.power) != 0 && !find_fall(text, &to, &from))
         return UNITS_DIMENSION;
     double ratio = strcmp(text, target) == 0 ? 1 : from.factor / to.factor;
     if (!isnormal(ratio))

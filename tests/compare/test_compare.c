@@ -101,19 +101,19 @@ static double normal(uint64_t *draws)
 
 static const double noise[3] = {0.3, 0.2, 0.5};
 
-// The log's clock shows `late` more than the run's; values in mm/s2, m/s2 and km.
+// The log's clock shows `late` more than the run's; values in g, mm/s2 and feet.
 static void write_log(const char *name, double late, double noisy, uint64_t seed)
 {
     static truth all;
     fly_by_hand(&all, 20);
     FILE *file = fopen(in(name), "w");
     assert_non_null(file);
-    fputs("# made\ntime [ms],across [m/s2],along [mm/s2],unused,height [km]\n", file);
+    fputs("# made\ntime [ms],across [g],along [mm/s2],unused,height [ft]\n", file);
     for (int i = 0; i < SPAN; i++)
-        fprintf(file, "%.6f,%.9f,%.9f,x,%.12f\n", 1000 * (all.t[i] + late),
-                all.across[i] + noisy * noise[1] * normal(&seed),
+        fprintf(file, "%.6f,%.17g,%.9f,x,%.12f\n", 1000 * (all.t[i] + late),
+                (all.across[i] + noisy * noise[1] * normal(&seed)) / g,
                 (all.along[i] + noisy * noise[0] * normal(&seed)) * 1000,
-                (all.height[i] + noisy * noise[2] * normal(&seed)) / 1000);
+                (all.height[i] + noisy * noise[2] * normal(&seed)) / 0.3048);
     fclose(file);
 }
 

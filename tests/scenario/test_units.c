@@ -50,6 +50,16 @@ static void test_factors(void **state)
         {"cm4", "m4", 1e-8},
         {"kg/m", "kg/m", 1},
         {"%", "", 1e-2},
+        {"ft", "m", 0.3048},
+        {"kft", "m", 304.8},
+        {"ft/s", "m/s", 0.3048},
+        {"ft/s2", "m/s2", 0.3048},
+        {"mi/h", "m/s", 5280 * 0.3048 / 3600},
+        {"lb/ft3", "kg/m3", 0.45359237 / (0.3048 * 0.3048 * 0.3048)},
+        {"lbf", "N", 0.45359237 * 9.80665},
+        {"psi", "Pa", 0.45359237 * 9.80665 / (0.0254 * 0.0254)},
+        {"g", "m/s2", 9.80665},
+        {"mg", "m/s2", 9.80665e-3},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char unknown[32], what[64];
@@ -67,21 +77,42 @@ static void test_refused(void **state)
         const char *from, *to;
         units_result result;
     } cases[] = {
-        {"m", "kg", UNITS_DIMENSION},     {"rad/s", "Hz", UNITS_DIMENSION},
-        {"Hz", "rad/s", UNITS_DIMENSION}, {"s", "Hz", UNITS_DIMENSION},
-        {"Hz", "s", UNITS_DIMENSION},     {"%", "rad", UNITS_DIMENSION},
-        {"rad", "", UNITS_DIMENSION},     {"N.m", "N.m/rad", UNITS_DIMENSION},
-        {"m0.5", "m", UNITS_SYNTAX},      {"m^0.5", "m", UNITS_SYNTAX},
-        {"m^(1/2)", "m", UNITS_SYNTAX},   {"m0", "", UNITS_SYNTAX},
-        {"m10", "m", UNITS_SYNTAX},       {"2 m", "m", UNITS_SYNTAX},
-        {"m @ 3", "m", UNITS_SYNTAX},     {"m since 3", "m", UNITS_SYNTAX},
-        {"lg(re m)", "m", UNITS_SYNTAX},  {"N m", "N.m", UNITS_SYNTAX},
-        {"m.", "m", UNITS_SYNTAX},        {".m", "m", UNITS_SYNTAX},
-        {"m//s", "m/s", UNITS_SYNTAX},    {"m-", "m", UNITS_SYNTAX},
-        {"1", "", UNITS_SYNTAX},          {"", "m", UNITS_SYNTAX},
-        {"\xc2\xb5m", "m", UNITS_SYNTAX}, {"kph", "m/s", UNITS_UNKNOWN},
-        {"Nm", "N.m", UNITS_UNKNOWN},     {"degree", "rad", UNITS_UNKNOWN},
-        {"ft", "m", UNITS_UNKNOWN},       {"M", "m", UNITS_UNKNOWN},
+        {"m", "kg", UNITS_DIMENSION},
+        {"rad/s", "Hz", UNITS_DIMENSION},
+        {"Hz", "rad/s", UNITS_DIMENSION},
+        {"s", "Hz", UNITS_DIMENSION},
+        {"Hz", "s", UNITS_DIMENSION},
+        {"%", "rad", UNITS_DIMENSION},
+        {"rad", "", UNITS_DIMENSION},
+        {"N.m", "N.m/rad", UNITS_DIMENSION},
+        {"m0.5", "m", UNITS_SYNTAX},
+        {"m^0.5", "m", UNITS_SYNTAX},
+        {"m^(1/2)", "m", UNITS_SYNTAX},
+        {"m0", "", UNITS_SYNTAX},
+        {"m10", "m", UNITS_SYNTAX},
+        {"2 m", "m", UNITS_SYNTAX},
+        {"m @ 3", "m", UNITS_SYNTAX},
+        {"m since 3", "m", UNITS_SYNTAX},
+        {"lg(re m)", "m", UNITS_SYNTAX},
+        {"N m", "N.m", UNITS_SYNTAX},
+        {"m.", "m", UNITS_SYNTAX},
+        {".m", "m", UNITS_SYNTAX},
+        {"m//s", "m/s", UNITS_SYNTAX},
+        {"m-", "m", UNITS_SYNTAX},
+        {"1", "", UNITS_SYNTAX},
+        {"", "m", UNITS_SYNTAX},
+        {"\xc2\xb5m", "m", UNITS_SYNTAX},
+        {"kph", "m/s", UNITS_UNKNOWN},
+        {"Nm", "N.m", UNITS_UNKNOWN},
+        {"degree", "rad", UNITS_UNKNOWN},
+        {"inch", "m", UNITS_UNKNOWN},
+        {"M", "m", UNITS_UNKNOWN},
+        {"kg", "m/s2", UNITS_DIMENSION},
+        {"ug", "m/s2", UNITS_DIMENSION},
+        {"g.m/s2", "m/s2", UNITS_DIMENSION},
+        {"g", "m/s", UNITS_DIMENSION},
+        {"g/Hz", "m/s", UNITS_DIMENSION},
+        {"g", "N", UNITS_DIMENSION},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char unknown[32];
@@ -120,6 +151,8 @@ static void test_suggestions(void **state)
     assert_string_equal(units_suggestion("Nm"), "N.m");
     assert_string_equal(units_suggestion("Deg"), "deg");
     assert_string_equal(units_suggestion("gpa"), "GPa");
+    assert_string_equal(units_suggestion("feet"), "ft");
+    assert_string_equal(units_suggestion("Gs"), "g");
     assert_null(units_suggestion("lightyear"));
     name_suggestion best = suggestion_begin("clerance");
     suggestion_offer(&best, "at");
@@ -133,11 +166,12 @@ static void test_quantities(void **state)
     const struct {
         const char *text, *unit;
         double value; // NaN: refused
-    } cases[] = {{"100", "m", 100},     {"0.1 km", "m", 100},  {"-3.5mm", "mm", -3.5},
-                 {"2 s", "ms", 2000},   {"1 kHz", "Hz", 1000}, {"50 %", "", 0.5},
-                 {"7", "", 7},          {"2 s", "m", NAN},     {"", "m", NAN},
-                 {"x", "m", NAN},       {"1,5 m", "m", NAN},   {"1e999 m", "m", NAN},
-                 {"3 metre", "m", NAN}, {"nan", "m", NAN},     {"inf m", "m", NAN}};
+    } cases[] = {{"100", "m", 100},     {"0.1 km", "m", 100},       {"-3.5mm", "mm", -3.5},
+                 {"2 s", "ms", 2000},   {"1 kHz", "Hz", 1000},      {"50 %", "", 0.5},
+                 {"7", "", 7},          {"2 s", "m", NAN},          {"", "m", NAN},
+                 {"x", "m", NAN},       {"1,5 m", "m", NAN},        {"1e999 m", "m", NAN},
+                 {"10 ft", "m", 3.048}, {"-2 g", "m/s2", -19.6133}, {"5 g", "kg", 0.005},
+                 {"3 metre", "m", NAN}, {"nan", "m", NAN},          {"inf m", "m", NAN}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         ld_error error = {0};
         double value = 17;

@@ -10,7 +10,7 @@
 
 #include "scenario/units.h"
 
-enum { BASES = 5, UNITS = BASES + 14, PREFIXES = 8 };
+enum { BASES = 5, UNITS = BASES + 19, PREFIXES = 8 };
 
 // UDUNITS loses memory at texts that it refuses.
 const char *__lsan_default_suppressions(void);
@@ -24,13 +24,25 @@ static const struct {
     const char *symbol, *definition;
     int power[BASES]; // of the base units
 } derived[] = {
-    {"g", "0.001 kg", {0, 1}},         {"t", "1000 kg", {0, 1}},
-    {"min", "60 s", {0, 0, 1}},        {"h", "3600 s", {0, 0, 1}},
-    {"Hz", "s-1", {0, 0, -1}},         {"deg", "0.017453292519943295 rad", {0, 0, 0, 1}},
-    {"N", "kg.m.s-2", {1, 1, -2}},     {"Pa", "N.m-2", {-1, 1, -2}},
-    {"J", "N.m", {2, 1, -2}},          {"W", "J.s-1", {2, 1, -3}},
-    {"bar", "100000 Pa", {-1, 1, -2}}, {"rev", "6.283185307179586 rad", {0, 0, 0, 1}},
-    {"rpm", "rev/min", {0, 0, -1, 1}}, {"%", "0.01", {0}},
+    {"g", "0.001 kg", {0, 1}},
+    {"t", "1000 kg", {0, 1}},
+    {"min", "60 s", {0, 0, 1}},
+    {"h", "3600 s", {0, 0, 1}},
+    {"Hz", "s-1", {0, 0, -1}},
+    {"deg", "0.017453292519943295 rad", {0, 0, 0, 1}},
+    {"N", "kg.m.s-2", {1, 1, -2}},
+    {"Pa", "N.m-2", {-1, 1, -2}},
+    {"J", "N.m", {2, 1, -2}},
+    {"W", "J.s-1", {2, 1, -3}},
+    {"bar", "100000 Pa", {-1, 1, -2}},
+    {"rev", "6.283185307179586 rad", {0, 0, 0, 1}},
+    {"rpm", "rev/min", {0, 0, -1, 1}},
+    {"ft", "0.3048 m", {1}},
+    {"mi", "1609.344 m", {1}},
+    {"lb", "0.45359237 kg", {0, 1}},
+    {"lbf", "4.4482216152605 N", {1, 1, -2}},
+    {"psi", "6894.757293168361 Pa", {-1, 1, -2}},
+    {"%", "0.01", {0}},
 };
 static const struct {
     const char *symbol;
@@ -205,7 +217,7 @@ static void test_products(void **state)
 static void test_any_text(void **state)
 {
     ut_system *system = *state;
-    static const char letters[] = "mkgsradKNPaJWHzthbrepni%.*/^-+123456789";
+    static const char letters[] = "mkgsradKNPaJWHzthbrepniflbi%.*/^-+123456789";
     unsigned seed = 2;
     int taken = 0;
     for (int i = 0; i < 100000; i++) {
