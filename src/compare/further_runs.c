@@ -1,5 +1,7 @@
 #include "compare/further_runs.h"
 
+#include <inttypes.h>
+
 #include "launchdyn/scenario.h"
 #include "launchdyn/study.h"
 #include "model/blocks/study.h"
@@ -113,10 +115,10 @@ ld_status further_run_sample(const further_runs *self, int number, int rocket, r
                              void *data, ld_error *error)
 {
     const ld_scatter *scatter = model_scatter(self->model);
-    if (!scatter->present || number > scatter->samples)
+    const int64_t runs = scatter->present ? plan_runs(scatter) : 0;
+    if (number > runs)
         return ld_fail(error, LD_ERR_INPUT,
-                       "samples: the scenario of the run has %d (scatter.samples)",
-                       scatter->present ? scatter->samples : 0);
+                       "samples: the scenario of the run has %" PRId64 " (scatter.samples)", runs);
     one_run run = {self->model, self->options, rocket, take, data};
     return run_sample(&run, number, error);
 }

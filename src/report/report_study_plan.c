@@ -29,16 +29,33 @@ static void write_line(FILE *json, bool *first, const char *name, const char *fo
     fputc(']', json);
 }
 
+static void write_samples(FILE *json, bool *first, const ld_scatter *scatter)
+{
+    const char *each = scatter->replicates == 1 ? "" : "s";
+    const int replicate = plan_replicate(scatter);
+    if (scatter->plan == LD_PLAN_LHS)
+        write_line(json, first, "plan", "%d Latin hypercube%s of %d samples", scatter->replicates,
+                   each, replicate);
+    else if (scatter->plan == LD_PLAN_SOBOL)
+        write_line(json, first, "plan", "%d scrambling%s of %d Sobol points", scatter->replicates,
+                   each, replicate);
+    else if (scatter->plan == LD_PLAN_SALTELLI)
+        write_line(json, first, "plan", "Saltelli's, %d rows of %d runs%s", scatter->samples,
+                   plan_row(scatter), plan_has_points(scatter) ? ", scrambled Sobol points" : "");
+    else if (scatter->plan == LD_PLAN_MORRIS)
+        write_line(json, first, "plan", "Morris's, %d trajectories of %d runs", scatter->samples,
+                   plan_row(scatter));
+    else
+        write_line(json, first, "plan", "random, %d samples", scatter->samples);
+}
+
 static ld_status write_plan(FILE *json, const ld_model *model)
 {
     const ld_scatter *scatter = model_scatter(model);
     bool first = true;
     fputs("\"plan\":[", json);
-    if (scatter->present && scatter->plan == LD_PLAN_LHS)
-        write_line(json, &first, "plan", "%d Latin hypercube%s of %d samples", scatter->replicates,
-                   scatter->replicates == 1 ? "" : "s", scatter->samples / scatter->replicates);
-    else if (scatter->present)
-        write_line(json, &first, "plan", "random, %d samples", scatter->samples);
+    if (scatter->present)
+        write_samples(json, &first, scatter);
     if (scatter->present)
         write_line(json, &first, "seed", "%d", scatter->seed);
     for (int i = 0; i < scatter->until_count; i++) {

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "fuzz/memory_folder.h"
-#include "model/units.h"
+#include "scenario/units.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -410,14 +410,48 @@ static void test_what_follows(void **state)
         CHECK_NEAR(all[i].what, drawn_number(all[i].text, all[i].number), all[i].expected, 1e-14);
 }
 
+// 11 factors of each of 18 rockets and 8 of the sample, of which 2 are seeds.
+static void test_dimensions(void **state)
+{
+    (void)state;
+    const struct {
+        const char *plan;
+        ld_status status;
+    } all[] = {{"scatter.plan=sobol", LD_OK}, {"scatter.plan=saltelli", LD_ERR_INPUT}};
+    for (size_t i = 0; i < 2; i++) {
+        const char *const sets[] = {all[i].plan, "scatter.samples=16", "scatter.replicates=2"};
+        ld_model *model;
+        ld_messages messages;
+        study_sampler sampler;
+        ld_error error = {0};
+        assert_int_equal(
+            ld_scenario_read(LD_SOURCE_DIR "/examples/salvo.yaml", sets, 3, &model, &messages),
+            LD_OK);
+        assert_int_equal(sampler_create(&sampler, model, &error), all[i].status);
+        if (all[i].status)
+            assert_string_equal(error.text,
+                                "scatter.plan: Sobol points have at most 256 coordinates, and "
+                                "these factors of 18 rockets require 404; use random numbers");
+        sampler_free(&sampler);
+        ld_model_free(model);
+        ld_messages_free(&messages);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform_numbers),       cmocka_unit_test(test_distributions),
-        cmocka_unit_test(test_between_anywhere),      cmocka_unit_test(test_possible_far_out),
-        cmocka_unit_test(test_permutation),           cmocka_unit_test(test_hypercube),
-        cmocka_unit_test(test_factors_of_a_scenario), cmocka_unit_test(test_several_keys),
-        cmocka_unit_test(test_longest_step),          cmocka_unit_test(test_what_follows),
+        cmocka_unit_test(test_uniform_numbers),
+        cmocka_unit_test(test_distributions),
+        cmocka_unit_test(test_between_anywhere),
+        cmocka_unit_test(test_possible_far_out),
+        cmocka_unit_test(test_permutation),
+        cmocka_unit_test(test_hypercube),
+        cmocka_unit_test(test_factors_of_a_scenario),
+        cmocka_unit_test(test_several_keys),
+        cmocka_unit_test(test_longest_step),
+        cmocka_unit_test(test_what_follows),
+        cmocka_unit_test(test_dimensions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

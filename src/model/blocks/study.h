@@ -3,6 +3,7 @@
 #define LD_MODEL_BLOCKS_STUDY_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "model/blocks/distribution.h"
 #include "model/blocks/limits.h"
@@ -49,15 +50,25 @@ typedef struct ld_until {
     bool relative;
 } ld_until;
 
-typedef enum ld_plan { LD_PLAN_RANDOM, LD_PLAN_LHS } ld_plan;
+/// How samples are planned. Of LD_PLAN_SALTELLI and LD_PLAN_MORRIS a sample is a row of several
+/// runs.
+typedef enum ld_plan {
+    LD_PLAN_RANDOM,
+    LD_PLAN_LHS,
+    LD_PLAN_SOBOL,
+    LD_PLAN_SALTELLI,
+    LD_PLAN_MORRIS,
+} ld_plan;
 
 /// What a study scatters, and how often it runs.
 typedef struct ld_scatter {
     bool present;
     int seed;
-    int samples; ///< runs, each of all rockets of the firing; with `until`, at most
+    int samples; ///< runs, or rows of them, each of all rockets of the firing; with `until`, at
+                 ///< most
     ld_plan plan;
-    int replicates; ///< independent Latin hypercubes, of samples/replicates each
+    int replicates; ///< independent Latin hypercubes or scramblings, of samples/replicates each; of
+                    ///< LD_PLAN_SALTELLI 1: random numbers
     int factor_count;
     ld_factor *factor; ///< owned by the model
     int correlated_count;
@@ -65,6 +76,51 @@ typedef struct ld_scatter {
     int until_count;              ///< 0: all samples are run
     ld_until until[LD_MAX_UNTIL]; ///< all of which must hold
 } ld_scatter;
+
+/// Runs of a row: of A. Saltelli's plan A, B and for each factor A with that factor of B; of a
+/// trajectory of M. D. Morris its start and a step for each factor.
+static inline int plan_row(const ld_scatter *scatter)
+{
+    return scatter->plan == LD_PLAN_SALTELLI ? scatter->factor_count + 2
+           : scatter->plan == LD_PLAN_MORRIS ? scatter->factor_count + 1
+                                             : 1;
+}
+
+/// Whether the coordinates are those of scrambled Sobol points.
+static inline bool plan_has_points(const ld_scatter *scatter)
+{
+    return scatter->plan == LD_PLAN_SOBOL ||
+           (scatter->plan == LD_PLAN_SALTELLI && scatter->replicates > 1);
+}
+
+/// Whether samples come in replicates, each of which is one group; else more may be added.
+static inline bool plan_is_replicated(const ld_scatter *scatter)
+{
+    return scatter->plan == LD_PLAN_LHS || plan_has_points(scatter);
+}
+
+/// Whether it is made for sensitivities.
+static inline bool plan_has_rows(const ld_scatter *scatter)
+{
+    return scatter->plan == LD_PLAN_SALTELLI || scatter->plan == LD_PLAN_MORRIS;
+}
+
+/// Samples of a replicate, 1 of random numbers.
+static inline int plan_replicate(const ld_scatter *scatter)
+{
+    return plan_is_replicated(scatter) ? scatter->samples / scatter->replicates : 1;
+}
+
+/// Runs of an independent group; of all samples.
+static inline int64_t plan_strata(const ld_scatter *scatter)
+{
+    return (int64_t)plan_row(scatter) * plan_replicate(scatter);
+}
+
+static inline int64_t plan_runs(const ld_scatter *scatter)
+{
+    return scatter->present ? (int64_t)plan_row(scatter) * scatter->samples : 1;
+}
 
 /// One key of the scenario that a study varies: a sweep is the product of its axes, the first
 /// varying most slowly.

@@ -1474,27 +1474,19 @@ static const field_block run_block = {.fields = run_fields};
 
 // ---- results that are asked for
 
-static const field_word take_words[] = {{"value", LD_TAKE_VALUE},
-                                        {"peak", LD_TAKE_PEAK},
-                                        {"change", LD_TAKE_CHANGE},
-                                        {"rms", LD_TAKE_RMS},
-                                        {"mean", LD_TAKE_MEAN},
-                                        {"largest", LD_TAKE_LARGEST},
-                                        {"least", LD_TAKE_LEAST},
-                                        {"expression", LD_TAKE_EXPRESSION},
-                                        {NULL, 0}};
+static const field_word take_words[] = {{"value", LD_TAKE_VALUE},   {"peak", LD_TAKE_PEAK},
+                                        {"change", LD_TAKE_CHANGE}, {"rms", LD_TAKE_RMS},
+                                        {"mean", LD_TAKE_MEAN},     {NULL, 0}};
 #define IN_WINDOW                                                                                  \
-    .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_CHANGE) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN) |  \
-             FORM(LD_TAKE_LARGEST) | FORM(LD_TAKE_LEAST)
-#define OF_COLUMN (FORM(LD_TAKE_EXPRESSION) - 1u)
+    .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_CHANGE) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
 static const double all_of_it[] = {0, 1e5};
 static const field_row measure_fields[] = {
     {"name", WORD(ld_measure, name), .required = true, .doc = "the result is measure.NAME"},
-    {"take", CHOICE(ld_measure, take, take_words), .required = true,
-     .doc = "value at an instant; in a window largest magnitude, largest change since `from`, rms, "
-            "mean, largest or least value; `expression` need not be said"},
-    {"of", QUANTITY(ld_measure, of), .required = true, .forms = OF_COLUMN,
+    {"of", QUANTITY(ld_measure, of), .required = true,
      .doc = "column of launch or flight (quantities.md)"},
+    {"take", CHOICE(ld_measure, take, take_words), .required = true,
+     .doc = "value at an instant; in a window largest magnitude, largest change since `from`, rms "
+            "or mean"},
     {"at", QUANTITY(ld_measure, from), .required = true, .forms = FORM(LD_TAKE_VALUE),
      .doc = "instant"},
     {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW, .doc = "start of the window"},
@@ -1502,8 +1494,6 @@ static const field_row measure_fields[] = {
     {"within", VECTOR(ld_measure, within, "s", 2), FROM_TO(0, 1e5), .initials = all_of_it,
      IN_WINDOW, .initial_doc = "all of it",
      .doc = "part of the window between these times after `from`"},
-    {"expression", .kind = FIELD_TEXT, .offset = offsetof(ld_measure, expression), .required = true,
-     .forms = FORM(LD_TAKE_EXPRESSION), .doc = "of results and, over time, of columns"},
     {0}};
 static const field_block measure_block = {.fields = measure_fields,
                                           .form = take_words,
@@ -1512,18 +1502,21 @@ static const field_block measure_block = {.fields = measure_fields,
 
 // ---- studies
 
-static const field_word plan_words[] = {
-    {"random", LD_PLAN_RANDOM}, {"lhs", LD_PLAN_LHS}, {NULL, 0}};
+static const field_word plan_words[] = {{"random", LD_PLAN_RANDOM}, {"lhs", LD_PLAN_LHS},
+                                        {"sobol", LD_PLAN_SOBOL},   {"saltelli", LD_PLAN_SALTELLI},
+                                        {"morris", LD_PLAN_MORRIS}, {NULL, 0}};
 static const field_row scatter_fields[] = {
     {"seed", INTEGER(ld_scatter, seed, 0, 999999999), DEFAULT(1),
      .doc = "of all random numbers of the study"},
     {"samples", INTEGER(ld_scatter, samples, 1, 100000000), .required = true,
-     .doc = "runs, each of all rockets of the firing"},
+     .doc = "runs, each of all rockets of the firing; with `saltelli` and `morris` rows of runs"},
     {"plan", CHOICE(ld_scatter, plan, plan_words), DEFAULT(LD_PLAN_RANDOM),
-     .doc = "independent samples, or Latin hypercubes"},
+     .doc = "independent samples, Latin hypercubes, scrambled Sobol points; for sensitivities the "
+            "plans of Saltelli and Morris (study.md)"},
     {"replicates", INTEGER(ld_scatter, replicates, 1, 1000000), DEFAULT(1),
-     .forms = FORM(LD_PLAN_LHS),
-     .doc = "independent hypercubes of samples/replicates each, for intervals"},
+     .forms = FORM(LD_PLAN_LHS) | FORM(LD_PLAN_SOBOL) | FORM(LD_PLAN_SALTELLI),
+     .doc = "independent hypercubes or scramblings of samples/replicates each, for intervals; "
+            "`saltelli` with 1: random numbers"},
     {"factors", .kind = FIELD_FACTORS, .offset = offsetof(ld_scatter, factor),
      .other = offsetof(ld_scatter, factor_count), .required = true,
      .doc = "uncertain numbers by path, or several by `paths` under a name"},

@@ -692,17 +692,39 @@ static void launch_rules(const rule_set *rules)
     pressure_rules(rules);
 }
 
-static void scatter_rules(const rule_set *rules)
+// Plans whose samples come in replicates, of which some have so many points.
+static void replicate_rules(const rule_set *rules)
 {
     const ld_scatter *scatter = &rules->model->scatter;
-    if (scatter->present && scatter->plan == LD_PLAN_LHS && scatter->replicates > 0 &&
-        scatter->samples % scatter->replicates != 0)
+    if (!plan_is_replicated(scatter) || scatter->replicates < 1)
+        return;
+    const int points = scatter->samples / scatter->replicates;
+    if (scatter->samples % scatter->replicates != 0)
         report_broken(rules, "scatter.replicates", 0,
                       "%d samples are not a multiple of %d replicates", scatter->samples,
                       scatter->replicates);
-    if (scatter->until_count > 0 && scatter->plan == LD_PLAN_LHS && scatter->replicates < 2)
+    else if (plan_has_points(scatter) && (points & (points - 1)) != 0)
+        report_broken(rules, "scatter.samples", 0,
+                      "Sobol points require a power of two in each replicate, found %d", points);
+    if (scatter->until_count > 0 && scatter->replicates < 2)
         report_broken(rules, "scatter.until", 0,
-                      "one hypercube gives no interval; set replicates, or plan: random");
+                      "one %s gives no interval; set replicates, or plan: random",
+                      scatter->plan == LD_PLAN_LHS ? "hypercube" : "scrambling");
+}
+
+static void scatter_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_scatter *scatter = &model->scatter;
+    if (!scatter->present)
+        return;
+    replicate_rules(rules);
+    if (plan_has_rows(scatter) && scatter->until_count > 0)
+        report_broken(rules, "scatter.until", 0,
+                      "the plans saltelli and morris run all samples; leave it out");
+    if (plan_has_rows(scatter) && scatter->correlated_count > 0)
+        report_broken(rules, "scatter.correlated", 0,
+                      "the plans saltelli and morris require independent factors");
 }
 
 void model_check_rules(const ld_model *model, rule_report *report, void *self)

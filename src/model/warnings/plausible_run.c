@@ -109,7 +109,7 @@ static plausible_pair interval(const plausible_entry *at)
 
 static plausible_pair launches(const plausible_entry *at)
 {
-    double launches = at->model->scatter.samples;
+    double launches = (double)plan_runs(&at->model->scatter);
     for (int i = 0; i < at->model->sweep_count; i++)
         launches *= at->model->sweep[i].count;
     return plausible_alone(launches);

@@ -1,9 +1,15 @@
 #include "studies/plan/draw.h"
 
 #include "base/random.h"
+#include "base/sobol.h"
 #include "math/curves/distributions.h"
 #include "math/functions.h"
 #include "model/fields/factor.h"
+
+// What a factor's random numbers belong to.
+typedef struct draw_key {
+    uint64_t seed, stream, rocket;
+} draw_key;
 
 // Feistel network on pairs of halves, walked again while it leaves 0 ... n - 1 (Black and Rogaway,
 // Ciphers with arbitrary finite domains, 2002).
@@ -28,17 +34,104 @@ int64_t draw_permuted(const uint64_t key[2], uint64_t first, uint64_t second, in
     return (int64_t)x;
 }
 
+// Where a run stands in its plan.
+typedef struct plan_place {
+    int64_t sample; // from 1: the row
+    int column;     // of the row
+} plan_place;
+
+static plan_place place_of(const ld_scatter *scatter, int64_t run)
+{
+    const int row = plan_row(scatter);
+    return (plan_place){(run - 1) / row + 1, (int)((run - 1) % row)};
+}
+
+// ---- Sobol points
+
+// Coordinates of the sample's factors come first, then those of each rocket's; seeds have none.
+static int dimension_of(const ld_scatter *scatter, int factor, int rocket)
+{
+    int before = 0, of_sample = 0, of_rocket = 0;
+    for (int i = 0; i < scatter->factor_count; i++) {
+        const ld_factor *other = &scatter->factor[i];
+        if (distribution_of(other->distribution)->traits & LD_SEED)
+            continue;
+        before += i < factor && other->per_rocket == (rocket > 0);
+        *(other->per_rocket ? &of_rocket : &of_sample) += 1;
+    }
+    return before + (rocket > 0 ? of_sample + (rocket - 1) * of_rocket : 0);
+}
+
+int draw_dimensions(const ld_scatter *scatter, int rockets)
+{
+    int dimensions = dimension_of(scatter, scatter->factor_count, rockets);
+    return scatter->plan == LD_PLAN_SALTELLI ? 2 * dimensions : dimensions;
+}
+
+// The number whose first bits are the scrambled coordinate's and whose others are u's: of 2^bits
+// points of a net each of 2^bits intervals has one. `second`: of matrix B.
+static double draw_point(const ld_scatter *scatter, const ld_factor *factor, const draw_key *key,
+                         int64_t sample, bool second, double u)
+{
+    const int64_t points = plan_replicate(scatter), replicate = (sample - 1) / points;
+    int bits = 0;
+    while ((int64_t)1 << bits < points)
+        bits++;
+    int dimension = dimension_of(scatter, (int)(factor - scatter->factor), (int)key->rocket);
+    if (scatter->plan == LD_PLAN_SALTELLI)
+        dimension = 2 * dimension + second;
+    uint32_t point = sobol_point(dimension, (uint32_t)((sample - 1) % points));
+    uint32_t scrambled = sobol_scrambled(point, bits, (uint64_t[]){key->seed, key->stream},
+                                         (uint64_t)replicate << 1 | second, key->rocket);
+    return fmin(ldexp((double)scrambled + u, -bits), 1 - 0x1p-53);
+}
+
+// ---- the plans for sensitivities
+
+int draw_turn(const ld_scatter *scatter, int64_t sample, int factor)
+{
+    const uint64_t key[] = {(uint64_t)scatter->seed, random_stream("morris")};
+    return (int)draw_permuted(key, (uint64_t)sample, 0, scatter->factor_count, factor);
+}
+
+// One of four levels, 0.05, 0.35, 0.65, 0.95; after its turn the one two levels away: up from the
+// two lower ones, down from the others. Rockets of a salvo go the same way.
+static double draw_level(const draw_key *key, int64_t sample, bool moved)
+{
+    double way = random_uniform(key->seed, key->stream, (uint64_t)sample, 0, 2);
+    double low = random_uniform(key->seed, key->stream, (uint64_t)sample, key->rocket, 3);
+    return (low < 0.5 ? 0.05 : 0.35) + ((way < 0.5) == moved ? DRAW_STEP : 0);
+}
+
+// Whether the run has the factor's number of matrix B, or after its step.
+static bool is_second(const ld_scatter *scatter, const ld_factor *factor, plan_place at)
+{
+    if (!plan_has_rows(scatter))
+        return false;
+    const int number = (int)(factor - scatter->factor);
+    return scatter->plan == LD_PLAN_SALTELLI ? at.column == 1 || at.column == number + 2
+                                             : at.column > draw_turn(scatter, at.sample, number);
+}
+
 // The factor's number on its own, as if it were in no group.
-static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int64_t sample,
+static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int64_t run,
                          int rocket)
 {
-    uint64_t seed = (uint64_t)scatter->seed, stream = random_stream(factor->path);
-    double u = random_uniform(seed, stream, (uint64_t)sample, (uint64_t)rocket, 0);
-    if (scatter->plan != LD_PLAN_LHS || (distribution_of(factor->distribution)->traits & LD_SEED))
+    const draw_key key = {(uint64_t)scatter->seed, random_stream(factor->path), (uint64_t)rocket};
+    const plan_place at = place_of(scatter, run);
+    const bool second = is_second(scatter, factor, at);
+    double u = random_uniform(key.seed, key.stream, (uint64_t)at.sample, key.rocket, second);
+    if (distribution_of(factor->distribution)->traits & LD_SEED)
         return u;
-    int64_t strata = scatter->samples / scatter->replicates, i = sample - 1;
-    int64_t stratum = draw_permuted((uint64_t[]){seed, stream}, (uint64_t)(i / strata),
-                                    (uint64_t)rocket, strata, i % strata);
+    if (plan_has_points(scatter))
+        return draw_point(scatter, factor, &key, at.sample, second, u);
+    if (scatter->plan == LD_PLAN_MORRIS)
+        return draw_level(&key, at.sample, second);
+    if (scatter->plan != LD_PLAN_LHS)
+        return u;
+    int64_t strata = plan_replicate(scatter), i = at.sample - 1;
+    int64_t stratum = draw_permuted((uint64_t[]){key.seed, key.stream}, (uint64_t)(i / strata),
+                                    key.rocket, strata, i % strata);
     return ((double)stratum + u) / (double)strata;
 }
 

@@ -8,13 +8,23 @@
 #include "model/blocks/study.h"
 #include "model/fields/field.h"
 
-// The number in (0, 1) for sample `sample` (from 1) and rocket `rocket` (from 1; 0: of the sample),
-// `factor` being one of scatter->factor. The first member of a correlated group has the number that
-// it would have on its own.
+// The number in (0, 1) for run `sample` (from 1; of most plans a sample is one run) and rocket
+// `rocket` (from 1; 0: of the sample), `factor` being one of scatter->factor. The first member of a
+// correlated group has the number that it would have on its own.
 double draw_uniform(const ld_scatter *scatter, const ld_factor *factor, int64_t sample, int rocket);
 
 // What the factor's distribution makes of `u` in (0, 1); place and nominal value of the number.
 double draw_value(const ld_factor *factor, const field_place *place, double nominal, double u);
+
+// How many coordinates the plan's Sobol points have for so many rockets.
+int draw_dimensions(const ld_scatter *scatter, int rockets);
+
+// How far a factor moves in a trajectory (LD_PLAN_MORRIS), as a number in (0, 1).
+#define DRAW_STEP 0.6
+
+// In which run of the trajectory `sample` (LD_PLAN_MORRIS) a factor moves, from 0: from this run to
+// the next.
+int draw_turn(const ld_scatter *scatter, int64_t sample, int factor);
 
 // A permutation of 0 ... n - 1: where `i` goes, of the permutation with that key.
 int64_t draw_permuted(const uint64_t key[2], uint64_t first, uint64_t second, int64_t n, int64_t i);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/sobol.h"
 #include "model/fields/factor.h"
 #include "model/model.h"
 #include "model/parts.h"
@@ -20,11 +21,26 @@ static bool find_places(study_sampler *self, int i, char *why, size_t size)
     return true;
 }
 
+static ld_status check_dimensions(const ld_scatter *scatter, int rockets, ld_error *error)
+{
+    const int dimensions = plan_has_points(scatter) ? draw_dimensions(scatter, rockets) : 0;
+    if (dimensions <= SOBOL_DIMENSIONS)
+        return LD_OK;
+    return ld_fail(
+        error, LD_ERR_INPUT,
+        "scatter.plan: Sobol points have at most %d coordinates, and these factors of %d "
+        "rockets require %d; use random numbers",
+        SOBOL_DIMENSIONS, rockets, dimensions);
+}
+
 ld_status sampler_create(study_sampler *self, const ld_model *nominal, ld_error *error)
 {
     const ld_scatter *scatter = &nominal->scatter;
     char why[384];
     *self = (study_sampler){.nominal = nominal, .factor_count = scatter->factor_count};
+    ld_status status = check_dimensions(scatter, nominal->firing_count, error);
+    if (status)
+        return status;
     size_t count = (size_t)scatter->factor_count + 1;
     int places = 0;
     self->first = calloc(count, sizeof *self->first);

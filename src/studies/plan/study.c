@@ -29,7 +29,7 @@ static ld_status no_such_sample(int64_t number, int64_t last, ld_error *error)
 
 ld_status ld_sample_create(const ld_model *model, int64_t number, ld_sample **out, ld_error *error)
 {
-    int samples = model_scatter(model)->present ? model_scatter(model)->samples : 1;
+    int64_t samples = plan_runs(model_scatter(model));
     if (number < 1 || number > samples)
         return no_such_sample(number, samples, error);
     ld_sample *self = calloc(1, sizeof *self);

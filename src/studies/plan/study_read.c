@@ -77,7 +77,7 @@ static ld_status read_points(ld_study *self, ld_messages *messages)
 static ld_status find_factors(ld_study *self, ld_error *error)
 {
     const ld_scatter *scatter = &self->nominal->scatter;
-    self->samples = (int64_t)self->points * (scatter->present ? scatter->samples : 1);
+    self->samples = self->points * plan_runs(scatter);
     self->sampler = calloc((size_t)self->points, sizeof *self->sampler);
     if (!self->sampler)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the study's factors");

@@ -9,9 +9,8 @@ int64_t until_next_check(const ld_scatter *scatter, int64_t samples)
 {
     enum { LEAST_SAMPLES = 20, LEAST_HYPERCUBES = 5 };
     const double growth = 1.25;
-    bool lhs = scatter->plan == LD_PLAN_LHS;
-    int64_t step = lhs ? scatter->samples / scatter->replicates : 1;
-    double least = lhs ? fmax(LEAST_HYPERCUBES * (double)step, LEAST_SAMPLES) : LEAST_SAMPLES;
+    int64_t step = plan_strata(scatter);
+    double least = step > 1 ? fmax(LEAST_HYPERCUBES * (double)step, LEAST_SAMPLES) : LEAST_SAMPLES;
     double wanted = samples == 0 ? least : growth * (double)samples;
     int64_t next = step * (int64_t)ceil(wanted / (double)step);
     return next < scatter->samples ? next : scatter->samples;

@@ -25,7 +25,7 @@ static char *identity_of(const ld_model *model)
     FILE *stream = memory_stream(&text, &length);
     if (!stream)
         return NULL;
-    if (same.scatter.plan == LD_PLAN_RANDOM)
+    if (!plan_is_replicated(&same.scatter))
         same.scatter.samples = 1;
     same.scatter.until_count = 0;
     ld_model_print(&same, stream);
@@ -207,9 +207,8 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
                                               : store_fail(self, "read", error);
     if (!status)
         status = store_set_number(self, "samples", self->study->samples, error);
-    int64_t strata = scatter->plan == LD_PLAN_LHS ? scatter->samples / scatter->replicates : 1;
     if (!status)
-        status = store_set_number(self, "strata", strata, error);
+        status = store_set_number(self, "strata", plan_strata(scatter), error);
     if (!status)
         status = put_origin(self, error);
     return status ? status : store_seal(self, error);
