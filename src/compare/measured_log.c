@@ -9,7 +9,7 @@
 #include "base/text_file.h"
 #include "base/text_lines.h"
 #include "compare/sensor_file.h"
-#include "scenario/units.h"
+#include "model/units.h"
 
 enum { MOST_BYTES = 256 << 20, PATH_SIZE = 4096, NO_FIELD = -1 };
 

@@ -12,7 +12,7 @@
 #include "model/parts.h"
 #include "quantities/study_results.h"
 #include "results/columns.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 
 enum { POINTS = 600, MOST_SPEEDS = 10000, CHARTS = 8, CURVES = 6, NAME = 128 };
 

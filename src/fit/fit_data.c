@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "math/matrices/dense.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 
 // What stands behind the name of a result whose standard uncertainty a column gives.
 static const char suffix[] = "_u";

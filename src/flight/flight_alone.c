@@ -48,7 +48,7 @@ static free_flight flight_of(const ld_simulation *self, double state[FLIGHT_STAT
     return (free_flight){
         .system = &self->flight,
         .model = model,
-        .measure = self->measure,
+        .measure = &self->measure,
         .t_ignition = ignition,
         .t_end = run->end == LD_END_TIME ? ignition + run->end_time : INFINITY,
         .launch_x = pose.r_O1.x,

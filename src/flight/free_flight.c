@@ -362,8 +362,7 @@ static bool has_come(void *self, measure_instant instant)
 static measuring measuring_of(flight_run *run)
 {
     return (measuring){
-        .count = model_measure_count(run->job->model),
-        .plan = run->job->measure,
+        .plans = run->job->measure,
         .flight = true,
         .window = run->window,
         .result = run->rocket->measure,
@@ -777,7 +776,7 @@ static ld_status begin(flight_run *run, const double *y)
             "environment.ground: the flight begins below the ground: the mass centre is at "
             "%s %.6g m, the ground at %.6g m",
             job->system->earth.flat ? "y =" : "an altitude of", height, job->system->ground);
-    measuring_begin(run->window, model_measure_count(job->model));
+    measuring_begin(run->window, job->measure->count);
     measure_now(run, job->t_start, y);
     set_next(run);
     ld_status status = check_table(run);
@@ -893,6 +892,7 @@ void flight_run_end(flight_run *run, ld_status status, double *state)
     flight->t_max_acceleration = run->extremes.t_acceleration - t_ignition;
     flight->max_angle_of_attack = atan2(run->extremes.across, run->extremes.along);
     record_final(run, run->steps.step.t, state, &run->rocket->final);
+    measuring_express(run->job->measure, run->rocket);
     note_warnings(run);
     run->summary->t_end = run->steps.step.t;
     run->summary->statistics.steps += (int64_t)run->steps.step.steps;

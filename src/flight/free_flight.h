@@ -11,9 +11,9 @@
 // What is to be flown; the caller keeps what it points to.
 typedef struct free_flight {
     const flight_system *system;
-    const ld_model *model;       // run.flight_tolerance, output_step_flight, flight_limit, measures
-    const measure_plan *measure; // [model->measure_count]
-    double t_ignition;           // [s] on the run's clock, as all times here
+    const ld_model *model; // run.flight_tolerance, output_step_flight, flight_limit, measures
+    const measure_plans *measure; //
+    double t_ignition;            // [s] on the run's clock, as all times here
     double t_start;
     double t_end;    // infinity: to the ground
     double launch_x; // [m] launch point in I
@@ -62,7 +62,7 @@ typedef struct flight_run {
     bool opened[LD_MAX_PARACHUTES];
     double t_full, area;      // when the one that fills is full [s], infinity: none does; then [m2]
     quantity_columns columns; // where something is measured
-    measure_window window[LD_MAX_MEASURES];
+    measure_window window[LD_MAX_TAKEN];
 } flight_run;
 
 // Begins a flight from `state`; what the run is given stays where it is until its end.

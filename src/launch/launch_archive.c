@@ -129,11 +129,15 @@ static void archive_jets(archive *bytes, ld_run *run)
 // Measures as far as they have been taken; nothing where there are none.
 static void archive_measures(archive *bytes, ld_run *run)
 {
-    if (model_measure_count(run->launch.model) == 0)
+    const measure_plans *plans = &run->launch.system->measure;
+    const int own = model_measure_count(run->launch.model); // those of the summary are in it
+    if (plans->count == 0)
         return;
     archive_double(bytes, &run->t_rocket);
     archive_double(bytes, &run->t_measured);
-    for (int i = 0; i < model_measure_count(run->launch.model); i++) {
+    for (int i = 0; i < run->summary.rocket_count; i++)
+        archive_doubles(bytes, run->summary.rocket[i].measure + own, (size_t)(plans->count - own));
+    for (int i = 0; i < plans->count; i++) {
         measure_window *measure = &run->measure[i];
         archive_bool(bytes, &measure->open);
         archive_bool(bytes, &measure->done);

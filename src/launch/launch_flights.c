@@ -95,7 +95,7 @@ static ld_status fly(ld_run *run, int i)
     free_flight job = {
         .system = &run->flight,
         .model = model,
-        .measure = run->launch.system->measure,
+        .measure = &run->launch.system->measure,
         .t_ignition = rocket->t_ignition,
         .t_start = t,
         .t_end = run->t_end,

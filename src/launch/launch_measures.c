@@ -12,7 +12,7 @@ _Static_assert((int)LD_MAX_COLUMNS <= (int)MEASURING_MOST_COLUMNS,
 void launch_begin_measures(ld_run *run, double t)
 {
     run->t_rocket = t;
-    measuring_begin(run->measure, model_measure_count(run->launch.model));
+    measuring_begin(run->measure, run->launch.system->measure.count);
 }
 
 static void find_row(void *self, double t, double *row)
@@ -50,8 +50,7 @@ static measuring measuring_of(ld_run *run)
 {
     const launch_state *self = &run->launch;
     return (measuring){
-        .count = model_measure_count(self->model),
-        .plan = self->system->measure,
+        .plans = &self->system->measure,
         .window = run->measure,
         .result = run->summary.rocket[self->current].measure,
         .row = find_row,

@@ -69,13 +69,13 @@ struct ld_run {
     bool sink_failed;
     double greatest_lock_force;
     hinge_watch watch[HINGES], drive_watch[LD_MAX_DRIVES];
-    double t_rocket;                         // [s] start of the current rocket's instants
-    double t_measured;                       // [s] where the last step ended
-    measure_window measure[LD_MAX_MEASURES]; // of the rocket that is in its tube
-    double point[LD_MAX_FIRINGS][2];         // [m] x and z of the rear adaptors at their ignition
-    flight_system flight;                    // of the rocket that flies now
-    quantity_columns flight_columns;         // its, where rows are requested
-    double cpu, cpu_output;                  // [s] spent in all; of it on rows and their sink
+    double t_rocket;                      // [s] start of the current rocket's instants
+    double t_measured;                    // [s] where the last step ended
+    measure_window measure[LD_MAX_TAKEN]; // of the rocket that is in its tube
+    double point[LD_MAX_FIRINGS][2];      // [m] x and z of the rear adaptors at their ignition
+    flight_system flight;                 // of the rocket that flies now
+    quantity_columns flight_columns;      // its, where rows are requested
+    double cpu, cpu_output;               // [s] spent in all; of it on rows and their sink
 };
 
 // The state at the present, in which no step need end.

@@ -240,6 +240,22 @@ static void note_base(const launch_state *self, ld_summary *summary)
         summary_note(summary, "%s", text);
 }
 
+static void note_measure(ld_run *run, int rocket, const ld_measure *measure)
+{
+    const char *guide = model_guide_word(run->launch.model);
+    int tube = run->summary.rocket[rocket].tube;
+    if (measure->take == LD_TAKE_EXPRESSION)
+        summary_note(&run->summary,
+                     "measure.%s of %s %d has no value: a result in it is missing, or it is not "
+                     "defined",
+                     measure->name, guide, tube);
+    else
+        summary_note(&run->summary,
+                     "measure.%s of %s %d has no value: its window did not occur, or %s is missing "
+                     "in a part of it",
+                     measure->name, guide, tube, measure->of);
+}
+
 // Of a launch that came to its end, the first measure that has no value.
 static void note_measures(ld_run *run)
 {
@@ -247,11 +263,7 @@ static void note_measures(ld_run *run)
     for (int i = 0; i < run->summary.rocket_count && run->summary.complete; i++)
         for (int k = 0; k < model_measure_count(model); k++)
             if (isnan(run->summary.rocket[i].measure[k])) {
-                summary_note(&run->summary,
-                             "measure.%s of %s %d has no value: its window did not occur, or %s "
-                             "is missing in a part of it",
-                             model_measure(model, k)->name, model_guide_word(model),
-                             run->summary.rocket[i].tube, model_measure(model, k)->of);
+                note_measure(run, i, model_measure(model, k));
                 return;
             }
 }
@@ -276,6 +288,8 @@ void launch_summarise(ld_run *run)
     ld_summary *summary = &run->summary;
     ld_status status = run->status;
     summary->complete = status == LD_OK;
+    for (int i = 0; i < summary->rocket_count; i++)
+        measuring_express(&self->system->measure, &summary->rocket[i]);
     if (status && !run->error.text[0])
         ld_fail(&run->error, status, "the receiver of the rows stopped the run");
     if (status)

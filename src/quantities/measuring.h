@@ -4,7 +4,9 @@
 
 #include <stdbool.h>
 
-#include "model/blocks/measure.h"
+#include "model/quantity.h"
+#include "quantities/expression.h"
+#include "quantities/summary.h"
 
 // An instant of a rocket. The start is that of the run, of a later rocket when its tube took the
 // place of the one before; the end when the next one's does, of the last that of the launch; in a
@@ -23,14 +25,31 @@ typedef struct measure_instant {
     int adaptor; // of an exit
 } measure_instant;
 
-// A measure as a simulation takes it.
+// A measure as a simulation takes it, or a figure over time in the expression of one.
 typedef struct measure_plan {
-    bool flight; // of a column of the rocket's flight, not of the launch
-    int column;
+    bool flight;          // of a column of the rocket's flight, not of the launch
+    int column;           // -1: of several
+    expression_part part; // expression of columns; of a measure that is an expression, of results
     ld_take take;
     measure_instant from, to; // of a value the same
     double within[2];         // [s] since `from`
 } measure_plan;
+
+// A result that an expression names.
+typedef struct measure_result {
+    quantity_place where, at;
+    int item;
+} measure_result;
+
+enum { MEASURE_MOST_RESULTS = 120 };
+
+// The model's measures in their order, then figures over time of their expressions.
+typedef struct measure_plans {
+    int count, results;
+    measure_plan plan[LD_MAX_TAKEN];
+    measure_result result[MEASURE_MOST_RESULTS];
+    expression_code code;
+} measure_plans;
 
 // A measure of one rocket, as far as it has been taken.
 typedef struct measure_window {
@@ -44,8 +63,7 @@ typedef struct measure_window {
 
 // What is measured: columns of a launch, or those of a flight, found at any time of the last step.
 typedef struct measuring {
-    int count;                // of plans, windows, results
-    const measure_plan *plan; // those of the other kind, launch or flight, are passed over
+    const measure_plans *plans; // those of the other kind, launch or flight, are passed over
     bool flight;
     measure_window *window;
     double *result; // in SI; stays as it is where its window does not come
@@ -69,5 +87,7 @@ void measuring_step(const measuring *self, double from, double to, const double 
 void measuring_instant(const measuring *self, double t, const double *now);
 // The last instant, at the end of the last step.
 void measuring_end(const measuring *self, double t);
+// Computes the expressions from what else is known of the rocket.
+void measuring_express(const measure_plans *plans, ld_rocket_summary *rocket);
 
 #endif

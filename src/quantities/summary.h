@@ -156,8 +156,9 @@ typedef struct ld_rocket_summary {
     ld_foot_summary foot[LD_MAX_FEET];
     double energy_dropped; ///< [J] kinetic, when its tube took the place of the one before: of what
                            ///< moved against the platform
-    double measure[LD_MAX_MEASURES]; ///< in the model's order; NaN: its instants did not all come
-    bool flown;                      ///< it has left the tube and flown: what follows is there
+    double measure[LD_MAX_TAKEN]; ///< in the model's order, then figures over time of
+                                  ///< expressions; NaN: its instants did not all come
+    bool flown;                   ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_parachute_summary parachute[LD_MAX_PARACHUTES]; ///< in the model's order
     ld_final_state final;

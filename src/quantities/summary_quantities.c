@@ -141,7 +141,7 @@ static const quantity support_peaks[] = {
     {"support.%s.max_moment", "N.m", "support %s: largest magnitude of its moment", BORNE(moment), KEPT, LINE("moment of support %s", "N.m", 1, 2)},
 };
 static const quantity measures[] = {
-    {"measure.%s", NULL, "value of measure %s, in the unit of its column", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
+    {"measure.%s", NULL, "value of measure %s, in the unit of its column or expression", .at = QUANTITY_EACH_OF(ld_rocket_summary, measure), KEPT, .line = {.label = "%s", .factor = 1, .digits = 6}},
 };
 #define HELD(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, hinge, member)
 static const quantity held[] = {
@@ -393,7 +393,7 @@ const quantity_table cost_quantities = TABLE(cost_groups);
 void rocket_clear(ld_rocket_summary *rocket, bool launched)
 {
     static const int most[EACH_COUNT] = {[EACH_ADAPTOR] = LD_MAX_ADAPTORS,
-                                         [EACH_MEASURE] = LD_MAX_MEASURES,
+                                         [EACH_MEASURE] = LD_MAX_TAKEN,
                                          [EACH_STATION] = LD_MAX_STATIONS,
                                          [EACH_SUPPORT] = LD_MAX_SUPPORTS,
                                          [EACH_SLIDE] = LD_MAX_SUPPORTS,

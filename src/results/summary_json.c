@@ -17,7 +17,7 @@
 #include "results/json.h"
 #include "results/json_text.h"
 #include "results/origin.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 
 // ---- numbers by their paths
 
@@ -115,7 +115,8 @@ static void write_modes(json_writer *json, const ld_summary *summary, const quan
 // What each number of `measure` is, where there are such.
 static void write_measures(json_writer *json, const ld_model *model)
 {
-    static const char *const takes[] = {"value", "peak", "change", "rms", "mean"};
+    static const char *const takes[] = {"value", "peak",    "change", "rms",
+                                        "mean",  "largest", "least",  "expression"};
     if (model_measure_count(model) == 0)
         return;
     json_open(json, "measures", '[');
@@ -124,6 +125,11 @@ static void write_measures(json_writer *json, const ld_model *model)
         json_open(json, NULL, '{');
         json_text(json, "name", measure->name);
         json_text(json, "unit", measure_unit(model, i));
+        if (measure->take == LD_TAKE_EXPRESSION) {
+            json_text(json, "expression", measure->expression);
+            json_close(json, '}');
+            continue;
+        }
         json_text(json, "of", measure->of);
         json_text(json, "take", takes[measure->take]);
         json_text(json, measure->take == LD_TAKE_VALUE ? "at" : "from", measure->from);

@@ -6,7 +6,7 @@
 #include "model/parts.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 
 // " ± error" of the values in a line, never less than their last digit; "" where it is not known.
 static const char *print_error(const quantity_line *line, const void *from, char text[32])

@@ -1,6 +1,7 @@
 // Measures: results that a scenario asks for besides those that every run has. Each takes one
 // column of the launch, or of the flights, rocket by rocket: its value at an instant, or its
-// largest magnitude, root mean square or mean in a window between two.
+// largest magnitude, root mean square or mean in a window between two; or it is an expression of
+// other results and of such figures.
 #ifndef LD_RUN_MEASURES_H
 #define LD_RUN_MEASURES_H
 
@@ -12,14 +13,11 @@
 // comes.
 void measures_check(const ld_model *model, rule_report *report, void *self);
 
-// Unit of a quantity, SI; "" or "1": none. A measure has that of the column that it is of.
-const char *quantity_unit(const quantity_walk *at);
-// That of measure `item` of a model, from 0.
-const char *measure_unit(const ld_model *model, int item);
+// Finds the units of expressions, which their results keep; those that are wrong have none.
+void measures_complete(ld_model *model);
 
 // How the model's measures are taken from the rows of its launch and of its flights. LD_ERR_INPUT:
 // one cannot be.
-ld_status measures_build(const ld_model *model, measure_plan plan[LD_MAX_MEASURES],
-                         ld_error *error);
+ld_status measures_build(const ld_model *model, measure_plans *plans, ld_error *error);
 
 #endif

@@ -44,7 +44,7 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
         return status;
     status = history_build(self, error);
     if (!status)
-        status = measures_build(model, self->measure, error);
+        status = measures_build(model, &self->measure, error);
     if (!status && self->launcher.base.kind->dynamics)
         self->stability = simulation_check_stability(self, &self->growing, &self->unstable);
     return status;
@@ -71,7 +71,7 @@ static ld_status renew_flight(ld_simulation *self, const ld_model *model, ld_err
     }
     self->model = model;
     ld_status status = flight_alone_create(self, error);
-    return status ? status : measures_build(model, self->measure, error);
+    return status ? status : measures_build(model, &self->measure, error);
 }
 
 ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld_error *error)

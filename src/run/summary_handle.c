@@ -8,7 +8,7 @@
 #include "base/suggestion.h"
 #include "launchdyn/summary.h"
 #include "quantities/summary_quantities.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 
 ld_summary *ld_summary_new(void)
 {

@@ -6,7 +6,7 @@
 #include "model/fields/field.h"
 #include "model/model.h"
 #include "quantities/study_results.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 #include "scenario/clock_text.h"
 #include "scenario/scenario_reader.h"
 #include "scenario/scenario_text.h"

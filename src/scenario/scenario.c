@@ -75,6 +75,7 @@ static tree_node *load(scenario_reader *reader, const text_source *source, const
     tree_node *root = tree_parse(reader, source, source->text, source->length, 1);
     if (!root || root->kind != NODE_MAP)
         return root;
+    measures_write_out(reader, root, false);
     tree_node *include = tree_member(root, "include");
     if (!include)
         return misspells_include(reader, root) ? NULL : root;

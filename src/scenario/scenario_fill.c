@@ -741,6 +741,24 @@ static text_place place_of_rule(const tree_node *node, const char *text)
     return node->kind == NODE_SCALAR && !tree_is_empty(node) ? node->at : node->key_at;
 }
 
+// The place of a character of a scalar, where it stands in one line as it is read.
+static text_place place_inside(const tree_node *node, text_place at, size_t character)
+{
+    const text_source *source = at.source;
+    if (node->kind != NODE_SCALAR || !source || !source->text || at.line != node->at.line)
+        return at;
+    const char *line = source->text, *end = source->text + source->length;
+    for (int i = source->first_line; i < at.line && line; i++) {
+        line = memchr(line, '\n', (size_t)(end - line));
+        line += line ? 1 : 0;
+    }
+    size_t before = (size_t)at.column - 1 + !node->plain;
+    bool whole = line && (size_t)(end - line) >= before + character &&
+                 memcmp(line + before, node->text, character) == 0;
+    at.column += whole ? (int)character + !node->plain : 0;
+    return at;
+}
+
 // Reports a broken rule at the key that it is about, or at the nearest block around it.
 static void refuse_rule(void *self, const char *path, const char *text)
 {
@@ -748,7 +766,7 @@ static void refuse_rule(void *self, const char *path, const char *text)
     const tree_node *node = context->root; // the innermost found
     bool lost = false;
     char full_path[PATH] = "", rest[PATH];
-    snprintf(rest, sizeof rest, "%s", path);
+    snprintf(rest, sizeof rest, "%.*s", (int)strcspn(path, "@"), path);
     for (char *save = NULL, *key = strtok_r(rest, ".", &save); key;
          key = strtok_r(NULL, ".", &save)) {
         char longer[PATH];
@@ -768,19 +786,24 @@ static void refuse_rule(void *self, const char *path, const char *text)
         lost = lost || !inner;
         node = inner ? inner : taken ? taken : node;
     }
+    text_place at = place_of_rule(node, text);
+    if (strchr(path, '@'))
+        at = place_inside(node, at, (size_t)atoi(strchr(path, '@') + 1));
     if (!reader_has_refused(context->reader, context->messages, full_path))
-        reader_refuse(context->reader, place_of_rule(node, text), full_path, "%s", text);
+        reader_refuse(context->reader, at, full_path, "%s", text);
 }
 
-void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model)
+void scenario_fill_values(scenario_reader *reader, tree_node *root, ld_model *model)
 {
     if (root->kind != NODE_MAP) {
         reader_refuse(reader, root->at, "",
                       "expected a scenario: a block of keys that begins with \"launchdyn: 1\"");
         return;
     }
+    measures_write_out(reader, root, true);
     read_block(reader, &scenario_block, root, model, "");
     model_complete(model);
+    measures_complete(model);
     scenario_fill_scatter(reader, root, model);
 }
 
@@ -804,7 +827,7 @@ static void refuse_complaint(rule_context *context, const char *complaint)
     refuse_rule(context, path, complaint + length + strlen(": "));
 }
 
-void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model)
+void scenario_fill(scenario_reader *reader, tree_node *root, ld_model *model)
 {
     rule_context context = {.reader = reader, .root = root};
     scenario_fill_values(reader, root, model);

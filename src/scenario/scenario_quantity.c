@@ -1,5 +1,6 @@
 // Numbers with units.
 #include <ctype.h>
+#include <errno.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -183,4 +184,24 @@ bool quantity_read(scenario_reader *reader, const written_value *given, double *
         }
     }
     return true;
+}
+
+ld_status ld_read_quantity(const char *text, const char *unit, double *value, ld_error *error)
+{
+    char *end, unknown[32] = "";
+    double factor = 1;
+    errno = 0;
+    double number = strtod(text, &end);
+    bool fine = end != text && errno == 0 && isfinite(number);
+    end += strspn(end, " ");
+    if (fine && *end)
+        fine = units_factor(end, unit, &factor, unknown) == UNITS_OK;
+    if (fine) {
+        *value = units_scale(number, factor);
+        return LD_OK;
+    }
+    const char *likely = *unknown ? units_suggestion(unknown) : NULL;
+    return ld_fail(error, LD_ERR_INPUT, "found \"%s\", expected a number%s%s%s%s%s", text,
+                   *unit ? " in " : "", unit, likely ? "; did you mean \"" : "",
+                   likely ? likely : "", likely ? "\"?" : "");
 }

@@ -9,7 +9,7 @@
 
 #include "launchdyn/scenario.h"
 #include "model/blocks/study.h"
-#include "scenario/units.h"
+#include "model/units.h"
 
 enum {
     READER_MAX_DEPTH = 32,             // of nested lists and mappings
@@ -143,8 +143,11 @@ bool tree_is_empty(const tree_node *node);
 const char *scenario_key_meant(const struct field_block *block, const char *key);
 
 // Reads the tree into `model` (initialised), each value against its table; then checks the rules.
-void scenario_fill_values(scenario_reader *reader, const tree_node *root, ld_model *model);
-void scenario_fill(scenario_reader *reader, const tree_node *root, ld_model *model);
+void scenario_fill_values(scenario_reader *reader, tree_node *root, ld_model *model);
+void scenario_fill(scenario_reader *reader, tree_node *root, ld_model *model);
+// Writes root's measures in short, NAME: EXPRESSION, out as blocks of a list; of one file, which
+// may be laid over another, only those of a list.
+void measures_write_out(scenario_reader *reader, tree_node *root, bool whole);
 // Reads a block's keys from `map`, whose path is given, into its struct, which was initialised.
 void scenario_fill_block(scenario_reader *reader, const struct field_block *block,
                          const tree_node *map, void *base, const char *path);

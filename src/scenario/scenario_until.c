@@ -7,7 +7,7 @@
 #include "model/fields/field.h"
 #include "model/model.h"
 #include "quantities/study_results.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 #include "scenario/scenario_reader.h"
 
 static const char *const statistic_names[] = {"mean", "deviation"};

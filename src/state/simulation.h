@@ -31,9 +31,9 @@ struct ld_simulation {
     int mode_count;
     ld_mode mode[6 + LD_MAX_MODES]; // tube and tail on their supports
 
-    quantity_columns columns;              // of the history; of a flight alone: of its flight
-    quantity_columns vehicle_columns;      // of its vehicle alone, where it has one
-    measure_plan measure[LD_MAX_MEASURES]; // of the model's measures
+    quantity_columns columns;         // of the history; of a flight alone: of its flight
+    quantity_columns vehicle_columns; // of its vehicle alone, where it has one
+    measure_plans measure;            // of the model's measures
 };
 
 // An empty one, to be freed; NULL: LD_ERR_MEMORY.

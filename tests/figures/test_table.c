@@ -10,8 +10,8 @@
 #include "figures/plot.h"
 #include "flight/flight_history.h"
 #include "flight/free_flight.h"
+#include "model/units.h"
 #include "scenario/scenario.h"
-#include "scenario/units.h"
 #include "state/simulation.h"
 #include "support/reference_model.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/suggestion.h"
 #include "launchdyn/scenario.h"
-#include "scenario/units.h"
+#include "model/units.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -8,7 +8,7 @@
 
 #include <udunits2.h>
 
-#include "scenario/units.h"
+#include "model/units.h"
 
 enum { BASES = 5, UNITS = BASES + 19, PREFIXES = 8 };
 

@@ -95,6 +95,7 @@ static const char *const options[][MOST_SETTINGS] = {
      "turbulence: {wind_at_6m: 8 m/s, harmonics: 20}}}",
      "rocket.aerodynamics=none"},
     {"measures=[{name: fastest, of: airspeed, take: peak, from: start, to: t_apogee}]"},
+    {"measures={a: mean(mach * airspeed) / apogee, b: measure.a + largest(mach) / 1 s}"},
 };
 
 typedef struct flown {

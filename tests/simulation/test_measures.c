@@ -357,6 +357,99 @@ static void test_flight_rows(void **state)
     model_clear(&model);
 }
 
+// ---- expressions
+
+static const struct {
+    const char *in_full, *expression; // of a measure, and the same in words
+} same[] = {
+    {"of: contact.rear.force, take: peak, from: t_front, to: t_rear",
+     "peak(contact.rear.force from t_front to t_rear)"},
+    {"of: tip.y, take: change, from: t_release, to: t_rear",
+     "change(tip.y from t_release to t_rear)"},
+    {"of: tip.pitch_rate, take: rms, from: t_ignition, to: t_rear", "rms(tip.pitch_rate)"},
+    {"of: thrust, take: mean, from: start, to: t_exit.front",
+     "mean(thrust from start to t_exit.front)"},
+    {"of: tip.y, take: least, from: t_ignition, to: t_rear", "-largest(-tip.y)"},
+    {"of: tip.z, take: largest, from: t_ignition, to: t_rear", "-least(-tip.z)"},
+    {"of: tip.y, take: peak, from: t_ignition, to: t_rear", "max(largest(tip.y), -least(tip.y))"},
+    {"of: tip.y, take: peak, from: t_ignition, to: t_rear", "largest(abs(tip.y))"},
+    {"of: tip.y, take: value, at: t_release", "tip.y at t_release"},
+    {"of: mach, take: peak, from: t_rear, to: t_impact", "peak(mach from t_rear to t_impact)"},
+    {"of: altitude, take: value, at: t_burnout", "altitude at t_burnout"},
+};
+enum { SAME = sizeof same / sizeof *same };
+
+// The figures of an expression are those of a measure, to the bit; results are those of the
+// summary.
+static void test_expressions(void **state)
+{
+    (void)state;
+    static ld_model model;
+    char text[6000] = "measures={";
+    for (int i = 0; i < SAME; i++)
+        snprintf(text + strlen(text), sizeof text - strlen(text), "a%d: {%s}, b%d: \"%s\", ", i,
+                 same[i].in_full, i, same[i].expression);
+    strcat(text, "off: \"hypot(yaw_rate, pitch_rate)\", twice: 2 * measure.off, "
+                 "far: sqrt(downrange^2 + drift^2), fast: (exit_speed > 37 m/s) + (apogee < 0), "
+                 "path: (rocket.s at t_rear) - (rocket.s at t_ignition)}");
+    const char *sets[] = {text, "run.end=landing"};
+    read_example("fixed.yaml", sets, 2, &model);
+    run_model(&model, NULL, &first);
+    const ld_rocket_summary *rocket = &first.rocket[0];
+    for (int i = 0; i < SAME; i++) {
+        const double full = rocket->measure[2 * i], expressed = rocket->measure[2 * i + 1];
+        if (!(full == expressed && full != 0))
+            fail_msg("%s: %.17g, %s: %.17g", same[i].in_full, full, same[i].expression, expressed);
+        assert_string_equal(model.measure[2 * i + 1].unit, i == 0   ? "N"
+                                                           : i == 2 ? "rad/s"
+                                                           : i == 3 ? "N"
+                                                           : i == 9 ? ""
+                                                                    : "m");
+    }
+    double off = sqrt(pow(rocket->yaw_rate, 2) + pow(rocket->pitch_rate, 2));
+    CHECK_NEAR("rate off the axis [rad/s]", measured(&model, 0, "off"), off, 1e-16);
+    CHECK_NEAR("twice that [rad/s]", measured(&model, 0, "twice"), 2 * off, 2e-16);
+    CHECK_NEAR("range [m]", measured(&model, 0, "far"), rocket->flight.range, 1e-11);
+    CHECK_NEAR("comparisons", measured(&model, 0, "fast"), rocket->exit_speed > 37, 0);
+    CHECK_NEAR("path in the tube [m]", measured(&model, 0, "path"), 2.9, 0.5);
+    assert_int_equal(first.note_count, 0);
+    model_clear(&model);
+}
+
+// Of a body thrown in a vacuum kinetic and potential energy sum to the same all the way, and its
+// speed is least at the top; of a sequence each rocket has its own.
+static void test_expressions_closed(void **state)
+{
+    (void)state;
+    const char *thrown[] = {
+        "environment.atmosphere=none", "rocket.motor=", "rocket.empty=",
+        "flight={ignition: 0 s, point: center, position: 0 0 0 m, velocity: 50 30 0 m/s}",
+        "measures={mean: mean(center.vy^2 / 2 + 9.80665 m/s2 * center.y), slow: "
+        "'least(hypot(center.vx, center.vy) from start to t_impact)', fall: '(t at end) - (t at "
+        "t_apogee)', rise: least(center.vy) / 1 m/s, steep: 'largest(atan2(center.vy, "
+        "center.vx))'}"};
+    const char *sequence[] = {"firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]",
+                              "run={lead_in: 0.1 s, end: 0.3 s}",
+                              "measures={lasts: (t at end) - (t at start), moved: largest(rocket.s "
+                              "from t_release to t_rear) - rocket.s at t_ignition}"};
+    static ld_model model;
+    read_example("flight.yaml", thrown, 5, &model);
+    run_model(&model, NULL, &first);
+    CHECK_NEAR("energy over mass [m2/s2]", measured(&model, 0, "mean"), 450, 1e-7);
+    CHECK_NEAR("least speed [m/s]", measured(&model, 0, "slow"), 50, 1e-9);
+    CHECK_NEAR("fall [s]", measured(&model, 0, "fall"), 30 / 9.80665, 1e-9);
+    CHECK_NEAR("least rate of climb", measured(&model, 0, "rise"), -30, 1e-9);
+    CHECK_NEAR("steepest [rad]", measured(&model, 0, "steep"), atan2(30, 50), 1e-12);
+    model_clear(&model);
+    read_example("fixed.yaml", sequence, 3, &model);
+    run_model(&model, NULL, &first);
+    CHECK_NEAR("first in its tube [s]", measured(&model, 0, "lasts"), 0.35, 1e-12);
+    CHECK_NEAR("second in its tube [s]", measured(&model, 1, "lasts"), 0.5, 1e-12);
+    CHECK_NEAR("path less that of the first [m]", measured(&model, 1, "moved"),
+               measured(&model, 0, "moved"), 1e-3);
+    model_clear(&model);
+}
+
 // What is asked for changes nothing else, and a window that does not come gives a warning.
 static void test_nothing_else(void **state)
 {
@@ -373,6 +466,13 @@ static void test_nothing_else(void **state)
     assert_int_equal(first.note_count, 1);
     assert_string_equal(first.note[0], "measure.late of tube 8 has no value: its window did not "
                                        "occur, or tip.pitch is missing in a part of it");
+    model_clear(&model);
+    const char *missing[] = {sets[0], "measures={soon: tip.y at t_front, off: 2 * yaw_rate}"};
+    read_example("fixed.yaml", missing, 2, &model);
+    run_model(&model, NULL, &first);
+    assert_true(isnan(measured(&model, 0, "off")) && !isnan(measured(&model, 0, "soon")));
+    assert_string_equal(first.note[0], "measure.off of tube 8 has no value: a result in it is "
+                                       "missing, or it is not defined");
     model_clear(&model);
     read_example("fixed.yaml", sets, 1, &model);
     run_model(&model, NULL, &second);
@@ -401,11 +501,17 @@ static void test_by_hand(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_closed_forms), cmocka_unit_test(test_sine),
-        cmocka_unit_test(test_rows),         cmocka_unit_test(test_sequence),
-        cmocka_unit_test(test_nothing_else), cmocka_unit_test(test_by_hand),
-        cmocka_unit_test(test_within),       cmocka_unit_test(test_thrown),
+        cmocka_unit_test(test_closed_forms),
+        cmocka_unit_test(test_sine),
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_sequence),
+        cmocka_unit_test(test_nothing_else),
+        cmocka_unit_test(test_by_hand),
+        cmocka_unit_test(test_within),
+        cmocka_unit_test(test_thrown),
         cmocka_unit_test(test_flight_rows),
+        cmocka_unit_test(test_expressions),
+        cmocka_unit_test(test_expressions_closed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

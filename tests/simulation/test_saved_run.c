@@ -19,7 +19,8 @@ enum { MOST_SETS = 7, MOST_BYTES = 1 << 17, SPREAD = 120, MOST_INSTANTS = 300 };
     "measures=[{name: lit, of: tip.pitch, take: value, at: t_ignition}, "                          \
     "{name: in, of: contact.rear.force, take: rms, from: t_ignition, to: t_rear}, "                \
     "{name: all, of: tip.inertial_vy, take: mean, from: start, to: end}, "                         \
-    "{name: most, of: tip.pitch_rate, take: peak, from: t_front, to: t_rear}]"
+    "{name: most, of: tip.pitch_rate, take: peak, from: t_front, to: t_rear}, "                    \
+    "{name: both, expression: \"rms(hypot(tip.y, tip.z)) + (tip.y at t_front) - least(tip.z)\"}]"
 
 static const struct saved_case {
     const char *name, *example, *sets[MOST_SETS];

@@ -29,6 +29,8 @@ enum {
     LD_MAX_CHOICES = 32,
     LD_MAX_UNTIL = 16,
     LD_MAX_MEASURES = 40,
+    LD_MAX_TAKEN = 80, ///< measures, and figures over time in their expressions
+    LD_MAX_UNIT = 48,
     LD_MAX_QUANTITY = 96,
     LD_MAX_CORRELATED = 16,
     LD_MAX_POINTS = 10000,

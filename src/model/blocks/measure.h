@@ -10,7 +10,10 @@ typedef enum ld_take {
     LD_TAKE_PEAK,
     LD_TAKE_CHANGE,
     LD_TAKE_RMS,
-    LD_TAKE_MEAN
+    LD_TAKE_MEAN,
+    LD_TAKE_LARGEST,
+    LD_TAKE_LEAST,
+    LD_TAKE_EXPRESSION // of other results and of windows
 } ld_take;
 
 /// A result that the scenario asks for: what a column of the launch is at an instant of a rocket,
@@ -20,10 +23,13 @@ typedef enum ld_take {
 typedef struct ld_measure {
     char name[LD_MAX_NAME];   ///< the result is called measure.NAME
     char of[LD_MAX_QUANTITY]; ///< column
-    ld_take take; ///< its value, largest magnitude, change since `from`, root mean square, mean
+    ld_take take; ///< its value, largest magnitude, change since `from`, root mean square, mean,
+                  ///< largest, least value, or an expression
     char from[LD_MAX_QUANTITY]; ///< instant of a value, or at which the window begins
     char to[LD_MAX_QUANTITY];   ///< instant at which it ends; of a value ""
     double within[2];           ///< [s] since `from`: of the window only what lies between these
+    char *expression;           ///< owned by the model
+    char unit[LD_MAX_UNIT];     ///< of the expression, SI; "": none
 } ld_measure;
 
 #endif

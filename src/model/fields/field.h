@@ -207,8 +207,8 @@ void field_expectation(const field_row *field, char *text, size_t size);
 void field_number_text(double value, char text[32]);
 
 // Rules that tie several keys together; `report` is called for each one broken, with the path of
-// the key that it is about (list members by number). A value that was refused already is marked by
-// NaN, a choice by FIELD_WORD_REFUSED.
+// the key that it is about (list members by number; after "@" a character of its text, from 0). A
+// value that was refused already is marked by NaN, a choice by FIELD_WORD_REFUSED.
 typedef void rule_report(void *self, const char *path, const char *text);
 void model_check_rules(const ld_model *model, rule_report *report, void *self);
 

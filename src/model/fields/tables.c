@@ -1474,19 +1474,27 @@ static const field_block run_block = {.fields = run_fields};
 
 // ---- results that are asked for
 
-static const field_word take_words[] = {{"value", LD_TAKE_VALUE},   {"peak", LD_TAKE_PEAK},
-                                        {"change", LD_TAKE_CHANGE}, {"rms", LD_TAKE_RMS},
-                                        {"mean", LD_TAKE_MEAN},     {NULL, 0}};
+static const field_word take_words[] = {{"value", LD_TAKE_VALUE},
+                                        {"peak", LD_TAKE_PEAK},
+                                        {"change", LD_TAKE_CHANGE},
+                                        {"rms", LD_TAKE_RMS},
+                                        {"mean", LD_TAKE_MEAN},
+                                        {"largest", LD_TAKE_LARGEST},
+                                        {"least", LD_TAKE_LEAST},
+                                        {"expression", LD_TAKE_EXPRESSION},
+                                        {NULL, 0}};
 #define IN_WINDOW                                                                                  \
-    .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_CHANGE) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN)
+    .forms = FORM(LD_TAKE_PEAK) | FORM(LD_TAKE_CHANGE) | FORM(LD_TAKE_RMS) | FORM(LD_TAKE_MEAN) |  \
+             FORM(LD_TAKE_LARGEST) | FORM(LD_TAKE_LEAST)
+#define OF_COLUMN (FORM(LD_TAKE_EXPRESSION) - 1u)
 static const double all_of_it[] = {0, 1e5};
 static const field_row measure_fields[] = {
     {"name", WORD(ld_measure, name), .required = true, .doc = "the result is measure.NAME"},
-    {"of", QUANTITY(ld_measure, of), .required = true,
-     .doc = "column of launch or flight (quantities.md)"},
     {"take", CHOICE(ld_measure, take, take_words), .required = true,
-     .doc = "value at an instant; in a window largest magnitude, largest change since `from`, rms "
-            "or mean"},
+     .doc = "value at an instant; in a window largest magnitude, largest change since `from`, rms, "
+            "mean, largest or least value; `expression` need not be said"},
+    {"of", QUANTITY(ld_measure, of), .required = true, .forms = OF_COLUMN,
+     .doc = "column of launch or flight (quantities.md)"},
     {"at", QUANTITY(ld_measure, from), .required = true, .forms = FORM(LD_TAKE_VALUE),
      .doc = "instant"},
     {"from", QUANTITY(ld_measure, from), .required = true, IN_WINDOW, .doc = "start of the window"},
@@ -1494,6 +1502,8 @@ static const field_row measure_fields[] = {
     {"within", VECTOR(ld_measure, within, "s", 2), FROM_TO(0, 1e5), .initials = all_of_it,
      IN_WINDOW, .initial_doc = "all of it",
      .doc = "part of the window between these times after `from`"},
+    {"expression", .kind = FIELD_TEXT, .offset = offsetof(ld_measure, expression), .required = true,
+     .forms = FORM(LD_TAKE_EXPRESSION), .doc = "of results and, over time, of columns"},
     {0}};
 static const field_block measure_block = {.fields = measure_fields,
                                           .form = take_words,

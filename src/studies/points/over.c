@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/suggestion.h"
+#include "model/units.h"
 #include "scenario/scenario_reader.h"
-#include "scenario/units.h"
 
 static ld_status no_memory(ld_error *error)
 {

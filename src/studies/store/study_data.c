@@ -8,7 +8,7 @@
 #include "model/fields/field.h"
 #include "model/model.h"
 #include "quantities/study_results.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 #include "scenario/scenario.h"
 #include "studies/statistics/statistics.h"
 #include "studies/store/store.h"

@@ -1,7 +1,9 @@
 // Units of measurement: one table of units with the base units m, kg, s, rad and K, so that an
 // angle is not a number and a frequency in Hz is not an angular rate.
-#ifndef LD_SCENARIO_UNITS_H
-#define LD_SCENARIO_UNITS_H
+#ifndef LD_MODEL_UNITS_H
+#define LD_MODEL_UNITS_H
+
+#include "model/blocks/limits.h"
 
 typedef enum units_result {
     UNITS_OK,
@@ -9,6 +11,18 @@ typedef enum units_result {
     UNITS_UNKNOWN,   // names a unit that there is not: see `unknown`
     UNITS_DIMENSION, // of another dimension
 } units_result;
+
+// Powers of the base units m, kg, s, rad and K; each at most UNITS_MOST_POWER.
+enum { UNITS_BASES = 5, UNITS_MOST_POWER = 9, UNITS_TEXT = LD_MAX_UNIT };
+typedef struct units_dimension {
+    int power[UNITS_BASES];
+} units_dimension;
+
+// The factor of unit `text` ("" or "1": none) to SI and its dimension; `unknown` as below.
+units_result units_read(const char *text, double *factor, units_dimension *dimension,
+                        char unknown[32]);
+// The SI unit of a dimension, "" without: "N.m", "kg.m2/s3".
+void units_write(const units_dimension *dimension, char text[UNITS_TEXT]);
 
 // Factor from unit `text` to `target` (an SI unit; "" for a plain number, where "%" is allowed).
 // `unknown` (32 characters) receives the name of an unknown unit.

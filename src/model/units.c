@@ -1,23 +1,20 @@
-#include "scenario/units.h"
+#include "model/units.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/suggestion.h"
-#include "launchdyn/scenario.h"
 #include "math/functions.h"
 
-// Powers of the base units m, kg, s, rad and K.
-enum { METRE, KILOGRAM, SECOND, RADIAN, KELVIN, BASES };
+enum { METRE, KILOGRAM, SECOND, RADIAN, KELVIN };
 
 // A product of powers of units: its size in base units, and their powers.
 typedef struct measure {
     double factor;
-    int power[BASES];
+    int power[UNITS_BASES];
 } measure;
 
 static const struct {
@@ -133,7 +130,7 @@ static void multiply(measure *product, const measure *unit, int power, bool belo
 {
     double factor = pow(unit->factor, power);
     product->factor *= below ? 1 / factor : factor;
-    for (int i = 0; i < BASES; i++)
+    for (int i = 0; i < UNITS_BASES; i++)
         product->power[i] += (below ? -power : power) * unit->power[i];
 }
 
@@ -199,6 +196,52 @@ units_result units_factor(const char *text, const char *target, double *factor, 
     return UNITS_OK;
 }
 
+units_result units_read(const char *text, double *factor, units_dimension *dimension,
+                        char unknown[32])
+{
+    measure product = {.factor = 1};
+    units_result result = UNITS_OK;
+    unknown[0] = '\0';
+    if (text[0] && strcmp(text, "1") != 0)
+        result = read_product(text, &product, unknown);
+    *factor = product.factor;
+    memcpy(dimension->power, product.power, sizeof product.power);
+    return result == UNITS_OK && !isnormal(product.factor) ? UNITS_DIMENSION : result;
+}
+
+// Adds the base units with powers of one sign.
+static void write_powers(const units_dimension *dimension, int sign, char text[UNITS_TEXT])
+{
+    static const char *const base[UNITS_BASES] = {"m", "kg", "s", "rad", "K"};
+    static const int order[UNITS_BASES] = {KILOGRAM, METRE, SECOND, RADIAN, KELVIN};
+    for (int i = 0; i < UNITS_BASES; i++) {
+        int power = sign * dimension->power[order[i]];
+        size_t length = strlen(text);
+        if (power <= 0)
+            continue;
+        const char *before = sign < 0 ? length ? "/" : "1/" : length ? "." : "";
+        snprintf(text + length, UNITS_TEXT - length, power == 1 ? "%s%s" : "%s%s%d", before,
+                 base[order[i]], power);
+    }
+}
+
+void units_write(const units_dimension *dimension, char text[UNITS_TEXT])
+{
+    static const char *const named[] = {"N", "N.m", "Pa", "W"};
+    text[0] = '\0';
+    for (size_t i = 0; i < sizeof named / sizeof *named; i++) {
+        measure of;
+        char unknown[32];
+        read_product(named[i], &of, unknown);
+        if (memcmp(of.power, dimension->power, sizeof of.power) == 0)
+            strcpy(text, named[i]);
+    }
+    if (text[0])
+        return;
+    write_powers(dimension, 1, text);
+    write_powers(dimension, -1, text);
+}
+
 double units_scale(double value, double factor)
 {
     double inverse = round(1 / factor);
@@ -216,24 +259,4 @@ const char *units_suggestion(const char *unknown)
     for (size_t i = 0; i < sizeof common / sizeof common[0]; i++)
         suggestion_offer(&best, common[i]);
     return best.name;
-}
-
-ld_status ld_read_quantity(const char *text, const char *unit, double *value, ld_error *error)
-{
-    char *end, unknown[32] = "";
-    double factor = 1;
-    errno = 0;
-    double number = strtod(text, &end);
-    bool fine = end != text && errno == 0 && isfinite(number);
-    end += strspn(end, " ");
-    if (fine && *end)
-        fine = units_factor(end, unit, &factor, unknown) == UNITS_OK;
-    if (fine) {
-        *value = units_scale(number, factor);
-        return LD_OK;
-    }
-    const char *likely = *unknown ? units_suggestion(unknown) : NULL;
-    return ld_fail(error, LD_ERR_INPUT, "found \"%s\", expected a number%s%s%s%s%s", text,
-                   *unit ? " in " : "", unit, likely ? "; did you mean \"" : "",
-                   likely ? likely : "", likely ? "\"?" : "");
 }
