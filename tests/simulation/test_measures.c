@@ -428,10 +428,10 @@ static void test_expressions_closed(void **state)
         "'least(hypot(center.vx, center.vy) from start to t_impact)', fall: '(t at end) - (t at "
         "t_apogee)', rise: least(center.vy) / 1 m/s, steep: 'largest(atan2(center.vy, "
         "center.vx))'}"};
-    const char *sequence[] = {"firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]",
-                              "run={lead_in: 0.1 s, end: 0.3 s}",
-                              "measures={lasts: (t at end) - (t at start), moved: largest(rocket.s "
-                              "from t_release to t_rear) - rocket.s at t_ignition}"};
+    const char *sequence[] = {
+        "firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]", "run={lead_in: 0.1 s, end: 0.3 s}",
+        ("measures={lasts: (t at end) - (t at start), moved: largest(rocket.s "
+         "from t_release to t_rear) - rocket.s at t_ignition}")};
     static ld_model model;
     read_example("flight.yaml", thrown, 5, &model);
     run_model(&model, NULL, &first);

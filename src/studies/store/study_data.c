@@ -115,15 +115,21 @@ static const ld_factor *factor_named(const ld_model *model, const char *name)
     return NULL;
 }
 
-// Units of the results that the scenario itself asks for.
-static void name_units(study_data *data, const ld_model *model)
+// Units of the results that the scenario itself asks for, which may go with the model; false: no
+// memory.
+static bool name_units(study_data *data, const ld_model *model)
 {
     const quantity_things things = quantity_things_of(model);
     for (int i = 0; i < data->result_count; i++) {
         const quantity_walk result = study_result_find(&things, data->column[i].name);
-        if (result.row)
-            data->reader->column[i].unit = quantity_unit(&result);
+        if (!result.row)
+            continue;
+        const char *unit = keep_text(data->reader, strdup(quantity_unit(&result)));
+        if (!unit)
+            return false;
+        data->reader->column[i].unit = unit;
     }
+    return true;
 }
 
 // Units and kinds of the factors and the title, from the scenario itself; without them where it
@@ -140,7 +146,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         ld_messages_free(&messages);
         return status == LD_ERR_MEMORY ? no_memory(error) : LD_OK;
     }
-    name_units(data, &model);
+    bool named = name_units(data, &model);
     for (int i = data->result_count; i < data->column_count; i++) {
         const ld_factor *factor = factor_named(&model, data->column[i].name);
         field_place place;
@@ -153,7 +159,7 @@ static ld_status read_scenario(study_data *data, ld_error *error)
     }
     data->title = keep_text(self, strdup(model.title ? model.title : ""));
     model_clear(&model);
-    return data->title ? LD_OK : no_memory(error);
+    return named && data->title ? LD_OK : no_memory(error);
 }
 
 static ld_status list_columns(study_data *data, ld_error *error)
