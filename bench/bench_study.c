@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "run/simulation_build.h"
 #include "state/simulation.h"
+#include "studies/run/ledger.h"
 #include "studies/run/worker.h"
 
 enum { PASSES = 3, MOST_SAMPLES = 2000 };

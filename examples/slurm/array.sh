@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A study as an array of jobs that share nothing but the folder:
-#     jobs=$(sbatch --parsable examples/slurm/array.sh examples/salvo.yaml salvo)
-#     sbatch --dependency=afterany:$jobs --wrap 'launchdyn study merge salvo'
+# A study as an array of jobs that share nothing but the folder. Jobs may begin late, end early or be killed; more of
+# them may be added while it runs:
+#     sbatch examples/slurm/array.sh examples/salvo.yaml salvo
 #SBATCH --job-name=study
 #SBATCH --array=1-64
 #SBATCH --ntasks=1
@@ -13,5 +13,4 @@ file=$1
 folder=$2
 
 export OPENBLAS_NUM_THREADS=1
-exec launchdyn study "$file" --out "$folder" --quiet \
-    --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"
+exec launchdyn study "$file" --out "$folder" --quiet --join

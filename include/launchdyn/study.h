@@ -57,7 +57,9 @@ typedef struct ld_study_options {
     void (*progress)(void *self, const ld_study_counts *counts);
     /// Called often, from all threads at once; false stops the study, which keeps what it has.
     bool (*go_on)(void *self);
-    const void *reserved[4]; ///< NULL: room for what later versions may be asked
+    double expiry; ///< [s] of ld_study_join(): without a sign of life for so long, a process has
+                   ///< lost the ranges that it has taken; 0: 60
+    const void *reserved[3]; ///< NULL: room for what later versions may be asked
 } ld_study_options;
 
 /// Runs the samples of `study` that the folder does not hold yet and keeps each as soon as it is
@@ -68,6 +70,15 @@ typedef struct ld_study_options {
 ///         another program works on it), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_INTERRUPTED
 ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study_options *options,
                        ld_study_counts *counts, ld_error *error);
+
+/// Shares the study with all processes that do the same, on any machines that have the folder,
+/// which need nothing else: each takes ranges of samples (at most 4000) and may come, go or be
+/// killed at any time. Returns when all samples are kept, whoever ran them: the folder is then that
+/// of ld_study_run(), to the bit, also with a stopping rule. Not for shards.
+/// @param counts of the whole study; `now`: of this process
+/// @return as ld_study_run(); LD_ERR_MISSING, the file system has no hard links
+ld_status ld_study_join(const ld_study *study, const char *folder, const ld_study_options *options,
+                        ld_study_counts *counts, ld_error *error);
 
 /// Joins what shards have kept in the folder into its study.db and prints what is still missing.
 /// Harmless however often, and while shards run; ld_study_run() without a shard then runs the rest.

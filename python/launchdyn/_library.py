@@ -92,7 +92,8 @@ GO_ON = CFUNCTYPE(c_bool, c_void_p)
 
 class ld_study_options(Structure):
     _fields_ = [("threads", c_int), ("shard", c_int), ("shards", c_int), ("self", c_void_p),
-                ("progress", COUNTS_TOLD), ("go_on", GO_ON), ("reserved", c_void_p * 4)]
+                ("progress", COUNTS_TOLD), ("go_on", GO_ON), ("expiry", c_double),
+                ("reserved", c_void_p * 3)]
 
 
 class ld_fit_key(Structure):
@@ -387,6 +388,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_study_model": (_handle, [_handle]),
     "ld_study_run": (c_int, [_handle, _text, POINTER(ld_study_options),
                              POINTER(ld_study_counts), _error]),
+    "ld_study_join": (c_int, [_handle, _text, POINTER(ld_study_options),
+                              POINTER(ld_study_counts), _error]),
     "ld_study_show": (c_int, [_text, POINTER(ld_study_view), c_void_p, _error]),
     "ld_study_merge": (c_int, [_text, c_void_p, _error]),
     "ld_study_export": (c_int, [_text, _text, _text, _error]),

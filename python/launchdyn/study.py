@@ -170,27 +170,27 @@ class Study:
         source = library.ld_model_source(scenario.handle.pointer)
         return cls(_read_study(library.ld_study_read_source, source))
 
-    def run(self, folder: PathLike, threads: int = 1,
-            progress: Progress = None) -> StudyData:
-        """Runs the samples that the folder does not hold yet, and opens what it then holds.
+    def run(self, folder: PathLike, threads: int = 1, progress: Progress = None,
+            join: bool = False) -> StudyData:
+        """Runs the samples that the folder does not hold yet, and opens what it then holds. With
+        `join` any number of programs, on any machines, share a folder: they may come, go or be
+        killed (docs/study.md).
 
         `progress` gets the Counts now and then, on the caller's thread; True: a line in a
         terminal or a notebook. Ctrl-C, or whatever
         `progress` raises, stops the study, which keeps what it has: run again, it continues. The
         results have the same bits for any number of threads and any interruption.
         """
-        self._run(folder, threads, progress, 0, 0)
+        self._run(_Work(self.handle, folder, threads, join=join), progress)
         return StudyData(folder)
 
     def run_shard(self, folder: PathLike, shard: int, shards: int, threads: int = 1,
                   progress: Progress = None) -> Counts:
         """Runs the samples shard, shard + shards, ... alone, for merge_shards(): several programs,
         on one machine or on many, share a folder so. Else as run()."""
-        return self._run(folder, threads, progress, shard, shards)
+        return self._run(_Work(self.handle, folder, threads, shard, shards), progress)
 
-    def _run(self, folder: PathLike, threads: int, progress: Progress, shard: int,
-             shards: int) -> Counts:
-        work = _Work(self.handle, folder, threads, shard, shards)
+    def _run(self, work: _Work, progress: Progress) -> Counts:
         with Interrupt() as interrupt, followed(progress) as told:
             work.start()
             try:
@@ -250,8 +250,8 @@ def _counts(counts: ld_study_counts) -> Counts:
 class _Work:
     """A study on a thread of its own, so that the one that began it hears Ctrl-C."""
 
-    def __init__(self, study: Handle, folder: PathLike, threads: int, shard: int,
-                 shards: int) -> None:
+    def __init__(self, study: Handle, folder: PathLike, threads: int, shard: int = 0,
+                 shards: int = 0, join: bool = False) -> None:
         self.latest, self.counts, self.error = ld_study_counts(), ld_study_counts(), ld_error()
         self.status = int(Status.OK)
         self.done = -1  # nothing has been reported
@@ -267,11 +267,12 @@ class _Work:
 
         self._options = ld_study_options(threads=threads, shard=shard, shards=shards,
                                          progress=COUNTS_TOLD(told), go_on=GO_ON(may_continue))
-        self._thread = threading.Thread(target=self._run, args=(study, coded_path(folder)))
+        run = library.ld_study_join if join else library.ld_study_run
+        self._thread = threading.Thread(target=self._run, args=(run, study, coded_path(folder)))
 
-    def _run(self, study: Handle, folder: bytes) -> None:
-        self.status = library.ld_study_run(study.pointer, folder, ctypes.byref(self._options),
-                                           ctypes.byref(self.counts), ctypes.byref(self.error))
+    def _run(self, run: Callable[..., int], study: Handle, folder: bytes) -> None:
+        self.status = run(study.pointer, folder, ctypes.byref(self._options),
+                          ctypes.byref(self.counts), ctypes.byref(self.error))
 
     def start(self) -> None:
         self._thread.start()

@@ -44,10 +44,13 @@ static const command commands[] = {
          "FILE.png). launchdyn study export DIR writes the results of all rockets (--csv FILE, "
          "--hdf5 "
          "FILE) or, for range safety, the footprints of the landing points (--footprint "
-         "FILE.kml).\n\nTo share a study among machines, run it on each with --shard I/N, I from 1 "
-         "to N, and the same DIR. launchdyn study merge DIR then merges the results.",
+         "FILE.kml).\n\nTo share a study among machines, run it on each with --join and the same "
+         "DIR: "
+         "processes may come, go or be killed. With --shard I/N, I from 1 to N, each runs a fixed "
+         "part, and launchdyn study merge DIR then merges the results.",
      .examples =
          "launchdyn study scenario.yaml --out out -j 4|Run or continue, four samples at a time\n"
+         "launchdyn study scenario.yaml --out out --join|Run as one of any number of processes\n"
          "launchdyn study show out --what exit_speed,pitch_rate|Statistics of two "
          "results\n"
          "launchdyn study plot out --over rocket.lock.release_force -o lock.svg|Results over a "

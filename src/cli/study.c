@@ -25,6 +25,23 @@ static int report_all_failed(const ld_study_counts *counts)
     return command_code(LD_ERR_LAUNCH);
 }
 
+// What one of several processes says at its end.
+static void print_part(const study_wishes *wishes, const ld_study_counts *counts)
+{
+    char folder[1024];
+    ld_visible_text(wishes->run.folder, folder, sizeof folder);
+    if (wishes->shards)
+        printf(
+            "shard %d of %d: %lld samples, %lld failed; when all shards are done: launchdyn study "
+            "merge %s\n",
+            wishes->shard, wishes->shards, (long long)counts->done, (long long)counts->failed,
+            folder);
+    if (wishes->join)
+        printf("%s: %lld samples, %lld failed; this process ran %lld; launchdyn study show %s\n",
+               folder, (long long)counts->done, (long long)counts->failed, (long long)counts->now,
+               folder);
+}
+
 int study_run_all(const ld_study *study, const study_wishes *wishes, study_runner *run)
 {
     run_progress progress;
@@ -34,23 +51,19 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
     ld_study_options options = {.threads = wishes->threads,
                                 .shard = wishes->shard,
                                 .shards = wishes->shards,
+                                .expiry = wishes->expiry,
                                 .self = &progress,
                                 .progress = progress_samples,
                                 .go_on = progress_resume};
     ld_status status = run(study, wishes->run.folder, &options, &counts, &error);
     progress_end(&progress);
     command_step("ran %lld samples into %s", (long long)counts.now, wishes->run.folder);
-    char folder[1024];
-    if (!status && !command_is_quiet() && wishes->shards)
-        printf(
-            "shard %d of %d: %lld samples, %lld failed; when all shards are done: launchdyn study "
-            "merge %s\n",
-            wishes->shard, wishes->shards, (long long)counts.done, (long long)counts.failed,
-            ld_visible_text(wishes->run.folder, folder, sizeof folder));
+    if (!status && !command_is_quiet())
+        print_part(wishes, &counts);
     if (!status && !command_is_quiet() && counts.look > 0)
         printf("the stopping rule is %s after %lld samples\n", counts.enough ? "met" : "not met",
                (long long)counts.samples);
-    if (!status && !command_is_quiet() && !wishes->shards)
+    if (!status && !command_is_quiet() && !wishes->shards && !wishes->join)
         status = ld_study_show(wishes->run.folder, NULL, stdout, &error);
     if (status)
         return command_fail(status, &error);
@@ -81,7 +94,7 @@ static int study_do(ld_study *study, study_wishes *wishes)
     if (!code && wishes->only != ALL_SAMPLES) {
         code = run_one(study, wishes);
     } else if (!code && wishes->run.folder) {
-        code = study_run_all(study, wishes, ld_study_run);
+        code = study_run_all(study, wishes, wishes->join ? ld_study_join : ld_study_run);
     } else if (!code) {
         command_complain("study requires --out DIR, the folder of the study");
         code = EXIT_INPUT;
@@ -232,7 +245,7 @@ static bool read_shard(const char *text, study_wishes *wishes)
 // What keeps these options from being those of a study to be run; NULL: nothing.
 static const char *wrong_to_run(const char *file, const char *again, const study_wishes *wishes)
 {
-    enum { MOST_THREADS = 1024 };
+    enum { MOST_THREADS = 1024, MOST_EXPIRY = 86400 };
     if (again && (file || wishes->run.sets))
         return "--again FOLDER repeats the study stored in FOLDER; it excludes other arguments and "
                "--set";
@@ -250,6 +263,12 @@ static const char *wrong_to_run(const char *file, const char *again, const study
         return "--over, --and, --statistic and --map require study show DIR or study plot DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
         return "--only and --shard exclude each other";
+    if (wishes->join && (wishes->shards || wishes->only != ALL_SAMPLES))
+        return "--join excludes --shard and --only";
+    if (wishes->expiry && !wishes->join)
+        return "--expiry requires --join";
+    if (wishes->join && (wishes->expiry < 0 || wishes->expiry > MOST_EXPIRY))
+        return "--expiry: expected a number of seconds from 1 to 86400";
     if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
         return "--jobs: expected a number from 1 to 1024";
     return NULL;
@@ -280,6 +299,12 @@ int command_study(const command *self, int argc, char **argv)
          "Run sample N only, with its history in DIR/sample-N", "N"},
         {"shard", '\0', OPTION_TEXT, &shard, "Run only part I of N of the study; then merge DIR",
          "I/N"},
+        {"join", '\0', OPTION_FLAG, &wishes.join,
+         "Compute the study together with all processes that run the same command", NULL},
+        {"expiry", '\0', OPTION_INTEGER, &wishes.expiry,
+         "For --join: time without a sign of life after which others take over the samples of a "
+         "process, in seconds (60)",
+         "S"},
         {"what", 'w', OPTION_TEXT, &what, "For show, plot: results, or all", "NAME,..."},
         {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
          "For show: share of the variance that each factor explains", NULL},

@@ -14,6 +14,7 @@ typedef struct study_wishes {
     int threads;
     int only; // sample, or ALL_SAMPLES
     int shard, shards;
+    int join, expiry; // shared with other processes; [s] after which one has lost its ranges
     ld_study_view view;
     char *over, *and_over, *statistic; // keys of the sweep, of a picture its statistic
     int map;

@@ -72,7 +72,7 @@ static void answer_all(leader *self)
     for (int i = 1; i < self->processes; i++) {
         if (self->state[i] == ASKING) {
             int64_t number = ledger_next(self->ledger);
-            if (number != LEDGER_WAIT)
+            if (number != SAMPLE_WAIT)
                 answer_follower(self, i, number, number == DISMISSED ? GONE : RUNNING);
         } else if (self->state[i] == RUNNING && !ledger_continues(self->ledger)) {
             answer_follower(self, i, DISMISSED, SENT_HOME);
@@ -113,14 +113,15 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
         fputs("launchdyn-mpi: no memory for the records of samples\n", stderr);
         MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     }
-    const store_place place = {folder, options->shard, options->shards, STORE_ROLLBACK};
+    const store_place place = {.folder = folder, .journal = STORE_ROLLBACK};
     ledger_open(&ledger, study, &place, options, counts, error);
+    const sample_source source = ledger_source(&ledger);
     // MPI is this thread's; alone, or without a second one, it runs samples after it has served
-    bool second = all.processes > 1 && worker_start(&worker, &ledger) == 0;
+    bool second = all.processes > 1 && worker_start(&worker, &source) == 0;
     serve_followers(&all);
     if (second)
         pthread_join(worker, NULL);
-    worker_run_all(&ledger);
+    worker_run_all(&source);
     free(all.state);
     free(all.record);
     return ledger_close(&ledger);

@@ -107,6 +107,11 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--only 0", 2, "there is no sample 0: they go from 1 to 10\n");
     expect_complaint(STUDY "--only 11", 2, "there is no sample 11");
     expect_complaint(STUDY "--only 2 --shard 1/2", 2, "--only and --shard exclude each other");
+    expect_complaint(STUDY "--join --shard 1/2", 2, "--join excludes --shard and --only\n");
+    expect_complaint(STUDY "--join --only 1", 2, "--join excludes --shard and --only\n");
+    expect_complaint(STUDY "--expiry 9", 2, "--expiry requires --join\n");
+    expect_complaint(STUDY "--join --expiry -1", 2,
+                     "--expiry: expected a number of seconds from 1 to 86400\n");
     expect_complaint(STUDY "--shard 4/3", 2, "--shard: expected I/N, from 1/N to N/N, found 4/3\n");
     expect_complaint(STUDY "-j 0", 2, "--jobs: expected a number from 1 to 1024\n");
     expect_complaint(STUDY "-j 1000000", 2, "--jobs: expected a number from 1 to 1024\n");

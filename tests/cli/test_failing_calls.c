@@ -59,6 +59,7 @@ static const verb verbs[] = {
     {"study", SCENARIO, "study s.yaml --out o", "study show o --what all", NULL},
     {"study on threads", SCENARIO, "study s.yaml --out o --jobs 2", "study show o --what all",
      "thread"},
+    {"study joined", SCENARIO, "study s.yaml --out o --join", "study show o --what all", "thread"},
     {"study show", STUDY, "study show o", NULL, NULL},
     {"study export", STUDY, "study export o --csv x.csv --hdf5 x.h5", NULL, NULL},
     {"study merge",

@@ -13,6 +13,10 @@ from launchdyn import study
 from support import EXAMPLES, FIXED, Case, command, flights, needs, scattered
 
 
+def data_files(folder):
+    return [path for path in folder.iterdir() if path.suffix != ".lock"]
+
+
 class TestStudy(Case):
     def hold_the_third_sample(self):
         """Lets studies wait after two samples until they are stopped, however fast they are."""
@@ -183,6 +187,19 @@ class TestStudy(Case):
                       lambda: ld.merge_shards(self.folder / "nowhere"), whole.export):
             with self.assertRaises(ValueError):
                 wrong()
+
+    def test_joined(self):
+        samples = ld.Study.of(flights(60))
+        whole = samples.run(self.folder / "whole")
+        others = [threading.Thread(target=samples.run, args=(self.folder / "joined",),
+                                   kwargs={"join": True}) for _ in range(2)]
+        for other in others:
+            other.start()
+        for other in others:
+            other.join()
+        with samples.run(self.folder / "joined", join=True) as data:
+            np.testing.assert_array_equal(data["range"], whole["range"])
+        self.assertEqual(len(data_files(self.folder / "joined")), 1)
 
     def test_a_sample_by_itself(self):
         samples = ld.Study.of(flights(3))

@@ -3,8 +3,26 @@
 #include <inttypes.h>
 #include <time.h>
 
-#include "model/parts.h"
-#include "studies/run/until.h"
+static int64_t source_next(void *self)
+{
+    return ledger_next(self);
+}
+
+static void source_keep(void *self, const study_record *record)
+{
+    ledger_keep(self, record);
+}
+
+static void source_stop(void *self, ld_status status, const ld_error *error)
+{
+    ledger_stop(self, status, error);
+}
+
+sample_source ledger_source(study_ledger *self)
+{
+    return (sample_source){self,        self->study,      source_next,
+                           source_keep, ledger_continues, source_stop};
+}
 
 bool ledger_continues(void *self)
 {
@@ -31,13 +49,13 @@ void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
 
 // ---- handing out
 
-// The next number up to self->look that is not kept; 0: there is none.
+// The next number up to where the rule is checked that is not kept; 0: there is none.
 static int64_t next_up_to_check(study_ledger *self)
 {
     bool there = true;
     ld_error error;
     int64_t number = 0;
-    while (there && self->next <= self->look && ledger_continues(self)) {
+    while (there && self->next <= self->rule.look && ledger_continues(self)) {
         number = self->next;
         self->next += self->step;
         ld_status status = store_has(&self->store, number, &there, &error);
@@ -47,23 +65,17 @@ static int64_t next_up_to_check(study_ledger *self)
     return there || self->stopped ? 0 : number;
 }
 
-// All samples up to self->look are kept: looks whether they are enough, and how many are next.
+// All samples up to where the rule is checked are kept.
 static void check_rule(study_ledger *self)
 {
     ld_error error;
     ld_study_counts *counts = self->counts;
-    ld_status status = store_settle(&self->store, true, &error);
-    if (!status)
-        status = until_holds(self->study, self->folder, self->look, &counts->enough, &error);
-    self->decided = counts->enough || self->look >= self->last;
-    if (!status && self->decided) {
-        self->last = counts->samples = self->look;
-        status = store_set_samples(&self->store, self->last, &error);
-    } else {
-        self->look = self->study->points * until_next_check(model_scatter(self->study->nominal),
-                                                            self->look / self->study->points);
-        counts->look = self->look;
-    }
+    ld_status status = until_check(&self->rule, &self->store, self->folder, &error);
+    counts->enough = self->rule.enough;
+    if (self->rule.decided)
+        counts->samples = self->rule.last;
+    else
+        counts->look = self->rule.look;
     if (status)
         stop(self, status, &error);
 }
@@ -73,10 +85,10 @@ static int64_t next_number(study_ledger *self)
     for (;;) {
         int64_t number = next_up_to_check(self);
         self->running += number != 0;
-        if (number != 0 || !ledger_continues(self) || self->decided)
+        if (number != 0 || !ledger_continues(self) || self->rule.decided)
             return number;
         if (self->running > 0)
-            return LEDGER_WAIT;
+            return SAMPLE_WAIT;
         check_rule(self);
     }
 }
@@ -151,7 +163,7 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
                            .folder = place->folder,
                            .next = place->shards > 0 ? place->shard : 1,
                            .step = shards,
-                           .last = study->samples,
+                           .rule = until_begin(study),
                            .error = error,
                            .at_work = PTHREAD_MUTEX_INITIALIZER};
     *counts = (ld_study_counts){0};
@@ -161,12 +173,10 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
         sqlite3_busy_handler(self->store.database, wait_for_reader, self);
         status = store_count(&self->store, counts, error);
     }
-    counts->samples = self->last < self->next ? 0 : (self->last - self->next) / shards + 1;
-    const ld_scatter *scatter = model_scatter(study->nominal);
-    self->look = self->last;
-    self->decided = scatter->until_count == 0;
-    if (!self->decided)
-        self->look = counts->look = study->points * until_next_check(scatter, 0);
+    int64_t last = self->rule.last;
+    counts->samples = last < self->next ? 0 : (last - self->next) / shards + 1;
+    if (!self->rule.decided)
+        counts->look = self->rule.look;
     if (status) {
         self->status = status;
         self->stopped = true;

@@ -7,7 +7,8 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#include "studies/plan/record.h"
+#include "studies/run/sample_source.h"
+#include "studies/run/until.h"
 #include "studies/store/store.h"
 
 typedef struct study_ledger {
@@ -17,11 +18,10 @@ typedef struct study_ledger {
     const char *folder;
     study_store store;
     bool open;
-    int64_t next, step, last; // number to be checked, from one to the next, of the last sample
-    int64_t look;             // number after which the stopping rule is checked; without one last
-    bool decided;             // there is no rule, or it was checked for the last time
-    int running;              // samples handed out that have not come back
-    ld_status status;         // why it stopped
+    int64_t next, step; // number to be checked, from one to the next
+    until_rule rule;
+    int running;      // samples handed out that have not come back
+    ld_status status; // why it stopped
     ld_error *error;
     atomic_bool stopped;
     pthread_mutex_t at_work; // held by whom the ledger serves
@@ -34,9 +34,11 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
 // @return LD_OK: all samples are kept; LD_ERR_INTERRUPTED; or what went wrong first
 ld_status ledger_close(study_ledger *self);
 
-// The number of a sample to be run; 0: no more; LEDGER_WAIT: it is not known yet, ask again.
+// The ledger as a source, whose functions are the following ones.
+sample_source ledger_source(study_ledger *self);
+
+// The number of a sample to be run; 0: no more; SAMPLE_WAIT: it is not known yet, ask again.
 int64_t ledger_next(study_ledger *self);
-enum { LEDGER_WAIT = -1 };
 // Keeps a record; an outcome that is not the sample's stops the study.
 void ledger_keep(study_ledger *self, const study_record *record);
 // Stops: what runs is not waited for.

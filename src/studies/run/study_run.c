@@ -35,9 +35,12 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
         status = check_shard(study, options, error);
     if (status)
         return status;
-    const store_place place = {folder, options->shard, options->shards,
-                               options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD};
+    const store_place place = {.folder = folder,
+                               .shard = options->shard,
+                               .shards = options->shards,
+                               .journal = options->shards > 0 ? STORE_ROLLBACK : STORE_AHEAD};
     ledger_open(&ledger, study, &place, options, counts, error);
-    worker_run_side_by_side(&ledger, options->threads);
+    const sample_source source = ledger_source(&ledger);
+    worker_run_side_by_side(&source, options->threads);
     return ledger_close(&ledger);
 }

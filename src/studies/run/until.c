@@ -43,3 +43,35 @@ ld_status until_holds(const ld_study *study, const char *folder, int64_t last, b
     study_data_close(&data);
     return status;
 }
+
+until_rule until_begin(const ld_study *study)
+{
+    bool ruled = model_scatter(study->nominal)->until_count > 0;
+    until_rule self = {.study = study, .last = study->samples, .decided = !ruled};
+    if (ruled)
+        until_look_further(&self);
+    else
+        self.look = self.last;
+    return self;
+}
+
+void until_look_further(until_rule *self)
+{
+    int points = self->study->points;
+    self->look =
+        points * until_next_check(model_scatter(self->study->nominal), self->look / points);
+}
+
+ld_status until_check(until_rule *self, study_store *store, const char *folder, ld_error *error)
+{
+    ld_status status = store_settle(store, true, error);
+    if (!status)
+        status = until_holds(self->study, folder, self->look, &self->enough, error);
+    self->decided = self->enough || self->look >= self->last;
+    if (status || !self->decided) {
+        until_look_further(self);
+        return status;
+    }
+    self->last = self->look;
+    return store_set_samples(store, self->last, error);
+}

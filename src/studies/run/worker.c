@@ -1,6 +1,5 @@
 #include "studies/run/worker.h"
 
-#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -128,24 +127,24 @@ typedef struct lane_worker {
 } lane_worker;
 
 typedef struct lane_workers {
-    study_ledger *ledger;
+    const sample_source *source;
     permission asked;
     ld_run_options options;
     lane_worker lane[FLIGHT_MOST_LANES];
-    bool waits; // the ledger did not know yet
+    bool waits; // the source did not know yet
 } lane_workers;
 
 static bool take_number(lane_workers *self, lane_worker *one)
 {
-    one->number = ledger_next(self->ledger);
-    self->waits = one->number == LEDGER_WAIT;
+    one->number = self->source->next(self->source->self);
+    self->waits = one->number == SAMPLE_WAIT;
     return one->number > 0;
 }
 
 static void keep_outcome(lane_workers *self, lane_worker *one, ld_status outcome)
 {
     fill_record(&one->worker, one->number, outcome, &one->error);
-    ledger_keep(self->ledger, one->worker.record);
+    self->source->keep(self->source->self, one->worker.record);
 }
 
 static bool next_flight(void *user, int lane, lane_flight *flight)
@@ -179,19 +178,19 @@ static void flight_done(void *user, int lane, lane_flight *flight, ld_status sta
     keep_outcome(self, &self->lane[lane], status);
 }
 
-static ld_status fly_all(study_ledger *ledger, ld_error *error)
+static ld_status fly_all(const sample_source *from, ld_error *error)
 {
     int lanes = flight_lanes_here();
     lane_workers *self = calloc(1, sizeof *self);
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for flights side by side");
     const lane_source source = {next_flight, flight_done, self, NULL};
-    self->ledger = ledger;
-    self->asked = (permission){ledger_continues, ledger};
+    self->source = from;
+    self->asked = (permission){from->continues, from->self};
     self->options = (ld_run_options){.self = &self->asked, .progress = may_continue};
     ld_status status = LD_OK;
     for (int i = 0; i < lanes && !status; i++)
-        status = worker_create(&self->lane[i].worker, ledger->study, error);
+        status = worker_create(&self->lane[i].worker, from->study, error);
     while (!status) {
         status = flight_lanes_fly(lanes, &source, error);
         if (!self->waits)
@@ -206,19 +205,19 @@ static ld_status fly_all(study_ledger *ledger, ld_error *error)
 
 // ---- all
 
-static ld_status run_one_by_one(study_ledger *ledger, ld_error *error)
+static ld_status run_one_by_one(const sample_source *from, ld_error *error)
 {
     study_worker worker;
-    ld_status status = worker_create(&worker, ledger->study, error);
+    ld_status status = worker_create(&worker, from->study, error);
     if (status)
         return status;
-    for (int64_t number; (number = ledger_next(ledger)) != 0;) {
-        if (number == LEDGER_WAIT) {
+    for (int64_t number; (number = from->next(from->self)) != 0;) {
+        if (number == SAMPLE_WAIT) {
             nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
             continue;
         }
-        worker_run(&worker, number, ledger_continues, ledger);
-        ledger_keep(ledger, worker.record);
+        worker_run(&worker, number, from->continues, from->self);
+        from->keep(from->self, worker.record);
     }
     worker_free(&worker);
     return LD_OK;
@@ -232,18 +231,18 @@ static bool has_launches(const ld_study *study)
     return i < study->points;
 }
 
-void worker_run_all(study_ledger *ledger)
+void worker_run_all(const sample_source *from)
 {
     ld_error error;
-    bool flights = !has_launches(ledger->study);
-    ld_status status = flights ? fly_all(ledger, &error) : run_one_by_one(ledger, &error);
+    bool flights = !has_launches(from->study);
+    ld_status status = flights ? fly_all(from, &error) : run_one_by_one(from, &error);
     if (status)
-        ledger_stop(ledger, status, &error);
+        from->stop(from->self, status, &error);
 }
 
-static void *run_all(void *ledger)
+static void *run_all(void *from)
 {
-    worker_run_all(ledger);
+    worker_run_all(from);
     return NULL;
 }
 
@@ -261,28 +260,37 @@ int worker_start_thread(pthread_t *thread, void *(*work)(void *), void *data)
     return problem;
 }
 
-int worker_start(pthread_t *thread, study_ledger *ledger)
+int worker_start(pthread_t *thread, const sample_source *from)
 {
-    return worker_start_thread(thread, run_all, ledger);
+    return worker_start_thread(thread, run_all, (void *)from);
 }
 
-void worker_run_side_by_side(study_ledger *ledger, int threads)
+int worker_start_some(pthread_t *thread, int count, const sample_source *from)
 {
     ld_error error;
-    int others = threads > 1 ? threads - 1 : 0, started = 0, problem = 0;
-    pthread_t *thread = calloc((size_t)others + 1, sizeof *thread);
-    if (!thread)
-        problem = ENOMEM;
-    while (!problem && started < others) {
-        problem = worker_start(&thread[started], ledger);
+    int started = 0, problem = 0;
+    while (!problem && started < count) {
+        problem = worker_start(&thread[started], from);
         started += !problem;
     }
     if (problem) {
-        ld_fail(&error, LD_ERR_MISSING, "cannot start thread %d of %d: %s", started + 2, threads,
+        ld_fail(&error, LD_ERR_MISSING, "cannot start thread %d of %d: %s", started + 1, count,
                 strerror(problem));
-        ledger_stop(ledger, LD_ERR_MISSING, &error);
+        from->stop(from->self, LD_ERR_MISSING, &error);
     }
-    worker_run_all(ledger);
+    return started;
+}
+
+void worker_run_side_by_side(const sample_source *from, int threads)
+{
+    ld_error error;
+    int others = threads > 1 ? threads - 1 : 0, started = 0;
+    pthread_t *thread = calloc((size_t)others + 1, sizeof *thread);
+    if (thread)
+        started = worker_start_some(thread, others, from);
+    else
+        from->stop(from->self, ld_fail(&error, LD_ERR_MEMORY, "no memory for threads"), &error);
+    worker_run_all(from);
     while (started > 0)
         pthread_join(thread[--started], NULL);
     free(thread);

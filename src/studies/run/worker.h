@@ -2,10 +2,12 @@
 #ifndef LD_STUDIES_WORKER_H
 #define LD_STUDIES_WORKER_H
 
+#include <pthread.h>
+
 #include "launchdyn/simulation.h"
 #include "studies/plan/record.h"
 #include "studies/plan/study.h"
-#include "studies/run/ledger.h"
+#include "studies/run/sample_source.h"
 
 typedef struct study_worker {
     const ld_study *study;
@@ -22,18 +24,22 @@ void worker_free(study_worker *self);
 // false, and LD_ERR_MEMORY are not the sample's: such a record is not to be kept.
 void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument);
 
-// Runs samples that the ledger hands out until there are no more: the work of one thread.
-void worker_run_all(study_ledger *ledger);
+// Runs samples that the source hands out until there are no more: the work of one thread.
+void worker_run_all(const sample_source *from);
 
 // Starts a thread with a stack of the size that launches need; returns 0, or why there is none (an
 // errno).
 int worker_start_thread(pthread_t *thread, void *(*work)(void *), void *data);
 
-// Starts a thread that runs samples so; returns 0, or why there is none (an errno).
-int worker_start(pthread_t *thread, study_ledger *ledger);
+// Starts a thread that runs samples so; returns 0, or why there is none (an errno). The source must
+// outlive it.
+int worker_start(pthread_t *thread, const sample_source *from);
 
-// The same on `threads` threads (fewer than 1 are one), of which the caller's is one. One that
-// cannot be had stops the ledger.
-void worker_run_side_by_side(study_ledger *ledger, int threads);
+// Starts `count` of them into thread[count]; returns how many. Where one cannot be had, the source
+// stops.
+int worker_start_some(pthread_t *thread, int count, const sample_source *from);
+
+// The same on `threads` threads (fewer than 1 are one), of which the caller's is one.
+void worker_run_side_by_side(const sample_source *from, int threads);
 
 #endif

@@ -133,6 +133,19 @@ ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *er
     return result == SQLITE_ROW || result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
 }
 
+ld_status store_numbers(study_store *self, void (*found)(void *, int64_t), void *argument,
+                        ld_error *error)
+{
+    sqlite3_stmt *numbers = store_prepare(self, "SELECT sample FROM sample", error);
+    int result = SQLITE_ROW;
+    if (!numbers)
+        return store_status(self);
+    while ((result = sqlite3_step(numbers)) == SQLITE_ROW)
+        found(argument, sqlite3_column_int64(numbers, 0));
+    sqlite3_finalize(numbers);
+    return result == SQLITE_DONE ? LD_OK : store_fail(self, "read", error);
+}
+
 // A row on its way into the database, and the digest of what was bound so far.
 typedef struct bound_row {
     sqlite3_stmt *insert;
@@ -289,25 +302,52 @@ static ld_status open_pending(study_store *self, ld_error *error)
 
 // ---- the whole of it
 
-static ld_status open_locked(study_store *self, const store_place *place, ld_error *error)
+static ld_status name_store(study_store *self, const store_place *place, char lock[4096],
+                            ld_error *error)
 {
     if (strlen(place->folder) + 64 > sizeof self->path)
         return ld_fail(error, LD_ERR_INPUT, "the name of the folder is too long");
     name_file(self->path, sizeof self->path, place);
-    char lock[4096];
     store_lock_name(self->path, lock);
-    ld_status status = lock_file_take(lock, self->path, &self->lock, error);
+    return LD_OK;
+}
+
+static ld_status open_locked(study_store *self, const store_place *place, ld_error *error)
+{
+    char lock[4096];
+    ld_status status = name_store(self, place, lock, error);
+    if (!status && place->lock > 0)
+        self->lock = place->lock;
+    else if (!status)
+        status = lock_file_take(lock, self->path, &self->lock, error);
     return status ? status : open_database(self, place->journal, error);
+}
+
+ld_status store_make_folder(const char *folder, ld_error *error)
+{
+    char made[4096];
+    size_t there = 0;
+    snprintf(made, sizeof made, "%s", folder);
+    return folder_make(made, &there, error);
+}
+
+ld_status store_try_lock(const char *folder, int *lock, ld_error *error)
+{
+    study_store store;
+    char name[4096];
+    *lock = -1;
+    ld_status status = name_store(&store, &(store_place){.folder = folder}, name, error);
+    if (status)
+        return status;
+    status = lock_file_try(name, store.path, lock, error);
+    return status == LD_ERR_INPUT ? LD_OK : status;
 }
 
 ld_status store_open(study_store *self, const store_place *place, const ld_study *study,
                      ld_error *error)
 {
-    char made[4096];
-    size_t there = 0;
     *self = (study_store){.study = study, .lock = -1};
-    snprintf(made, sizeof made, "%s", place->folder);
-    ld_status status = folder_make(made, &there, error);
+    ld_status status = store_make_folder(place->folder, error);
     if (!status)
         status = open_locked(self, place, error);
     if (!status)

@@ -13,7 +13,13 @@ typedef struct store_place {
     const char *folder;
     int shard, shards;
     store_journal journal;
+    int lock; // a descriptor that has the database's lock, and is the store's from now on; 0: none
 } store_place;
+
+ld_status store_make_folder(const char *folder, ld_error *error);
+// Locks study.db of the folder, which is there, without waiting; *lock: the descriptor, -1 where
+// another process has it.
+ld_status store_try_lock(const char *folder, int *lock, ld_error *error);
 
 // Opens the database for `study`, making what is not there; refuses another scenario's,
 // or one at which another process is at work.
@@ -32,6 +38,10 @@ ld_status store_count(study_store *self, ld_study_counts *counts, ld_error *erro
 ld_status store_set_samples(study_store *self, int64_t samples, ld_error *error);
 // Whether the sample is kept already.
 ld_status store_has(study_store *self, int64_t number, bool *there, ld_error *error);
+
+// Calls `found` for the number of each sample that is kept.
+ld_status store_numbers(study_store *self, void (*found)(void *, int64_t), void *argument,
+                        ld_error *error);
 
 // Keeps a record; it outlives a kill at once and a loss of power when it is settled.
 ld_status store_put(study_store *self, const study_record *record, ld_error *error);

@@ -15,9 +15,7 @@
 #include "studies/store/store_tables.h"
 #include "studies/store/store_text.h"
 
-// The scenario as text in which nothing is left out but when to stop: the rule, and the number of
-// samples where more may be added.
-static char *identity_of(const ld_model *model)
+char *store_identity(const ld_model *model)
 {
     char *text = NULL;
     size_t length;
@@ -216,7 +214,7 @@ static ld_status begin_or_compare(study_store *self, const char *identity, ld_er
 
 ld_status store_begin(study_store *self, ld_error *error)
 {
-    char *identity = identity_of(self->study->nominal);
+    char *identity = store_identity(self->study->nominal);
     if (!identity)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario's text");
     ld_status status = store_execute(self, "BEGIN IMMEDIATE", error);

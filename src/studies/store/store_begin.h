@@ -4,6 +4,10 @@
 
 #include "studies/store/store_database.h"
 
+// The scenario as text in which nothing is left out but when to stop: the rule, and the number of
+// samples where more may be added. To be freed; NULL: no memory.
+char *store_identity(const ld_model *model);
+
 // Makes the tables, or refuses those of another study.
 ld_status store_begin(study_store *self, ld_error *error);
 
