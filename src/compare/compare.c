@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "compare/evaluation.h"
+#include "compare/further_runs.h"
 #include "compare/log_clock.h"
 #include "compare/measured_log.h"
 #include "compare/sensor_reading.h"
@@ -31,6 +32,15 @@ static ld_status open_run(ld_comparison *self, const char *folder, ld_error *err
     if (!status && *doubt)
         comparison_note(self, "%.100s: %s", folder, doubt);
     return status ? status : run_series_of_file(&self->run, &self->history, self->rocket, error);
+}
+
+// Where accelerometers on the launcher feel it.
+static ld_status find_gravity(ld_comparison *self, const char *folder, ld_error *error)
+{
+    bool felt = false;
+    for (int i = 0; i < self->log.sensors; i++)
+        felt = felt || (self->log.sensor[i].on && self->log.sensor[i].kind == SENSOR_ACCELEROMETER);
+    return felt ? further_runs_gravity(folder, &self->run.gravity, error) : LD_OK;
 }
 
 // ---- the log beside it
@@ -236,6 +246,8 @@ static ld_status compare(ld_comparison *self, const char *folder, const char *lo
     ld_status status = open_run(self, folder, error);
     if (!status)
         status = measured_log_read(&self->log, log, options->sensors, &self->run, error);
+    if (!status)
+        status = find_gravity(self, folder, error);
     if (!status)
         status = compare_nominal(self, error);
     if (!status)

@@ -45,6 +45,17 @@ void further_runs_close(further_runs *self)
     self->model = NULL;
 }
 
+ld_status further_runs_gravity(const char *folder, double *gravity, ld_error *error)
+{
+    further_runs runs;
+    ld_status status = further_runs_open(&runs, folder, &(ld_run_options){.self = NULL}, error);
+    if (status)
+        return status;
+    *gravity = model_gravity(runs.model);
+    further_runs_close(&runs);
+    return LD_OK;
+}
+
 // What is run, and who takes it.
 typedef struct one_run {
     const ld_model *model;
@@ -69,6 +80,7 @@ static ld_status run_model(one_run *self, ld_error *error)
     run_series series = {.launch = {0}};
     if (!status)
         status = run_series_of_run(&series, history, summary, self->rocket, error);
+    series.gravity = model_gravity(self->model);
     if (!status)
         status = self->take(self->data, &series, summary, error);
     run_series_free(&series);

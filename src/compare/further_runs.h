@@ -23,6 +23,10 @@ ld_status further_runs_open(further_runs *self, const char *folder, const ld_run
                             ld_error *error);
 void further_runs_close(further_runs *self);
 
+// [m/s2] in the run of that folder.
+// @return what further_runs_open() returns
+ld_status further_runs_gravity(const char *folder, double *gravity, ld_error *error);
+
 // Texts as of --set.
 typedef struct run_overrides {
     const char *const *set; // [count]

@@ -69,7 +69,7 @@ ld_status run_series_of_file(run_series *self, const history_data *history, int 
                              ld_error *error)
 {
     const history_data *flight = flight_of(history, rocket);
-    *self = (run_series){.t_first = -INFINITY, .t_last = INFINITY};
+    *self = (run_series){.t_first = -INFINITY, .t_last = INFINITY, .gravity = NAN};
     bool alone = history_column(history, "angle_of_attack") != NULL;
     if (rocket < 1 || (rocket > history->rockets && !flight))
         return no_rocket(rocket, history->rockets, error);
@@ -119,7 +119,7 @@ ld_status run_series_of_run(run_series *self, const ld_history *history, const l
 {
     static const char *const names[SERIES_INSTANTS] = {"",       "t_release", "t_front", "t_middle",
                                                        "t_rear", "t_apogee",  "t_impact"};
-    *self = (run_series){.t_first = -INFINITY, .t_last = INFINITY};
+    *self = (run_series){.t_first = -INFINITY, .t_last = INFINITY, .gravity = NAN};
     if (rocket < 1 || rocket > ld_summary_rockets(summary))
         return no_rocket(rocket, ld_summary_rockets(summary), error);
     double ignition = number_of(summary, rocket, "t_ignition");

@@ -30,6 +30,7 @@ typedef struct run_series {
     double t_ignition;          // [s] on the run's clock
     double t_first, t_last;     // [s] likewise: rows of the launch outside are not this rocket's
     double instant[SERIES_INSTANTS]; // [s] from ignition; NaN: none
+    double gravity;                  // [m/s2] along -y of I; NaN: not known
 } run_series;
 
 // Of the rocket with this place in the firing order, from 1. The history must outlive it.

@@ -10,6 +10,7 @@ typedef enum sensor_kind {
     SENSOR_ACCELEROMETER,
     SENSOR_GYRO,
     SENSOR_ALTIMETER,
+    SENSOR_STRAIN,
     SENSOR_COLUMN,
 } sensor_kind;
 
@@ -20,8 +21,9 @@ typedef struct sensor {
     char *column; // its name in the log
     sensor_kind kind;
     char of[LD_MAX_QUANTITY]; // column of the run, where that is what it measures
-    double at[3], axis[3];    // [m] place, and direction in which it measures, in B
-    double cutoff;            // [Hz] NaN: no low pass
+    char *on; // part of the launcher that carries it, as its columns begin; NULL: the rocket
+    double at[3], axis[3]; // [m] place, and direction in which it measures, in that part's axes
+    double cutoff;         // [Hz] NaN: no low pass
     int order;
     double delay; // [s]
     double scale, bias;

@@ -17,6 +17,7 @@
                                              DEFAULT(WINDOW_OPEN), ANY
 #define ACCELEROMETER FORM(SENSOR_ACCELEROMETER)
 #define INERTIAL (ACCELEROMETER | FORM(SENSOR_GYRO))
+#define STRAIN FORM(SENSOR_STRAIN)
 #define SERIES (~FORM(TAKE_RESULT) & 0xffu)
 
 static const field_word window_words[] = {
@@ -38,6 +39,7 @@ static const field_block clock_block = {.fields = clock_fields};
 static const field_word kind_words[] = {{"accelerometer", SENSOR_ACCELEROMETER},
                                         {"gyro", SENSOR_GYRO},
                                         {"altimeter", SENSOR_ALTIMETER},
+                                        {"strain", SENSOR_STRAIN},
                                         {"column", SENSOR_COLUMN},
                                         {NULL, 0}};
 
@@ -45,7 +47,8 @@ static const field_row sensor_fields[] = {
     {"column", TEXT(sensor, column), .required = true},
     {"kind", CHOICE(sensor, kind, kind_words), REQUIRED},
     {"of", QUANTITY(sensor, of), .required = true, .forms = FORM(SENSOR_COLUMN)},
-    {"at", VECTOR(sensor, at, "m", 3), ANY, DEFAULT(0), .forms = ACCELEROMETER},
+    {"on", TEXT(sensor, on), .forms = INERTIAL | STRAIN},
+    {"at", VECTOR(sensor, at, "m", 3), ANY, DEFAULT(0), .forms = ACCELEROMETER | STRAIN},
     {"axis", VECTOR(sensor, axis, "", 3), ANY, REQUIRED, .forms = INERTIAL},
     {"low_pass", NUMBER(sensor, cutoff, "Hz"), POSITIVE, NO_DEFAULT("none")},
     {"order", INTEGER(sensor, order, 1, 8), DEFAULT(2)},
@@ -113,7 +116,7 @@ static void fill_clock(scenario_reader *reader, const tree_node *root, sensor_re
 static const char *unit_of(scenario_reader *reader, const sensor_reader *self, const tree_node *map,
                            const char *path)
 {
-    static const char *const units[] = {"m/s2", "rad/s", "m"};
+    static const char *const units[] = {"m/s2", "rad/s", "m", ""};
     const tree_node *kind = tree_member(map, "kind"), *of = tree_member(map, "of");
     const field_word *word =
         kind && kind->kind == NODE_SCALAR ? field_word_find(kind_words, kind->text) : NULL;
@@ -133,6 +136,29 @@ static const char *unit_of(scenario_reader *reader, const sensor_reader *self, c
     return unit;
 }
 
+// The part of the launcher must have the columns that the sensor measures.
+static void check_part(scenario_reader *reader, const sensor_reader *self, const tree_node *map,
+                       const char *path, sensor *of)
+{
+    const tree_node *on = tree_member(map, "on");
+    char name[LD_MAX_QUANTITY], nearest_part[LD_MAX_QUANTITY], on_path[READER_MAX_PATH], quoted[64];
+    const char *nearest, *last = of->kind == SENSOR_STRAIN ? "curvature_y" : "wx";
+    snprintf(on_path, sizeof on_path, "%s.on", path);
+    if (!of->on && of->kind == SENSOR_STRAIN)
+        reader_refuse(reader, map->at, on_path, "required, a station of the tube: station.1");
+    if (!of->on)
+        return;
+    snprintf(name, sizeof name, "%.60s.%s", of->on, last);
+    if (run_series_unit(self->run, name, &nearest))
+        return;
+    const char *end = nearest ? strrchr(nearest, '.') : NULL;
+    snprintf(nearest_part, sizeof nearest_part, "%.*s", end ? (int)(end - nearest) : 0,
+             end ? nearest : "");
+    reader_refuse(reader, on->at, on_path, "the run has no column %s%s%s%s",
+                  reader_quote(name, quoted), end ? ", did you mean \"" : "", nearest_part,
+                  end ? "\"?" : "");
+}
+
 static void fill_sensor(scenario_reader *reader, const sensor_reader *self, const tree_node *map,
                         const char *path, sensor *into)
 {
@@ -149,6 +175,11 @@ static void fill_sensor(scenario_reader *reader, const sensor_reader *self, cons
     block.fields = fields;
     scenario_fill_block(reader, &block, map, into, path);
     snprintf(into->si, sizeof into->si, "%s", unit);
+    if (into->on && strcmp(into->on, "rocket") == 0) {
+        free(into->on);
+        into->on = NULL;
+    }
+    check_part(reader, self, map, path, into);
     double norm = sqrt(into->axis[0] * into->axis[0] + into->axis[1] * into->axis[1] +
                        into->axis[2] * into->axis[2]);
     if (norm == 0 && into->kind <= SENSOR_GYRO)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compare/launcher_reading.h"
 #include "math/curves/low_pass.h"
 #include "math/curves/pchip.h"
 #include "math/vectors/mat3.h"
@@ -32,8 +33,8 @@ static ld_status accelerate(const sensor *self, const run_series *run, run_signa
 static ld_status turn(const sensor *self, const run_series *run, run_signal *signal,
                       ld_error *error)
 {
-    static const char *const names[] = {"rocket.wx", "rocket.wy", "rocket.wz"};
-    ld_status status = run_series_take(run, names, 3, signal, error);
+    static const char *const rates[] = {"wx", "wy", "wz"};
+    ld_status status = launcher_take(self->on ? self->on : "rocket", run, rates, 3, signal, error);
     for (size_t i = 0; i < signal->count; i++)
         signal->value[i] = v3_dot(v3_from(self->axis), v3_from(signal->value + 3 * i));
     return status;
@@ -75,10 +76,14 @@ ld_status sensor_signal(const sensor *self, const run_series *run, run_signal *s
     ld_status status = LD_OK;
     switch (self->kind) {
     case SENSOR_ACCELEROMETER:
-        status = accelerate(self, run, signal, error);
+        status = self->on ? launcher_accelerate(self, run, signal, error)
+                          : accelerate(self, run, signal, error);
         break;
     case SENSOR_GYRO:
         status = turn(self, run, signal, error);
+        break;
+    case SENSOR_STRAIN:
+        status = launcher_strain(self, run, signal, error);
         break;
     case SENSOR_ALTIMETER:
         status = climb(run, signal, error);

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "model/blocks/tubes.h"
+#include "model/parts.h"
 #include "quantities/quantity_table.h"
 #include "state/energy.h"
 #include "state/evaluation.h"
@@ -45,6 +47,7 @@ typedef struct launch_instant {
         double force_y, force_z, moment;
     } shoe[LD_MAX_ADAPTORS];
     launching_loads loads;
+    body_instant section[LD_MAX_STATIONS]; // at each station
     base_instant of_base;
     ld_energy energy;
 } launch_instant;
@@ -231,6 +234,23 @@ static const quantity stations[] = {
     {"station.%s.bending_z", "N.m", "station %s: bending moment about z (E I u_y'')", CARRIED(wrench.m.z)},
     {"station.%s.bending", "N.m", "station %s: magnitude of the bending moment", CARRIED(bending)},
     {"station.%s.stress", "Pa", "station %s: largest bending stress, where the outer fibre is known", CARRIED(stress)},
+    {"station.%s.strain", "1", "station %s: strain of the elastic axis", CARRIED(strain)},
+    {"station.%s.curvature_y", "1/m", "station %s: curvature u_y''", CARRIED(curvature_y)},
+    {"station.%s.curvature_z", "1/m", "station %s: curvature u_z''", CARRIED(curvature_z)},
+};
+static const quantity sections[] = {
+    {"station.%s.x", "m", "section at station %s: axis in I", EACH(section, r[0])},
+    {"station.%s.y", "m", "section at station %s: axis in I", EACH(section, r[1])},
+    {"station.%s.z", "m", "section at station %s: axis in I", EACH(section, r[2])},
+    {"station.%s.yaw", "rad", "section at station %s: yaw of Ry(yaw) Rz(pitch) Rx(roll)", EACH(section, angles[0])},
+    {"station.%s.pitch", "rad", "section at station %s: pitch", EACH(section, angles[1])},
+    {"station.%s.roll", "rad", "section at station %s: roll", EACH(section, angles[2])},
+    {"station.%s.vx", "m/s", "section at station %s: velocity of the axis in I", EACH(section, v[0])},
+    {"station.%s.vy", "m/s", "section at station %s: velocity of the axis in I", EACH(section, v[1])},
+    {"station.%s.vz", "m/s", "section at station %s: velocity of the axis in I", EACH(section, v[2])},
+    {"station.%s.wx", "rad/s", "section at station %s: angular velocity against I in its own axes", EACH(section, w[0])},
+    {"station.%s.wy", "rad/s", "section at station %s: angular velocity against I in its own axes", EACH(section, w[1])},
+    {"station.%s.wz", "rad/s", "section at station %s: angular velocity against I in its own axes", EACH(section, w[2])},
 };
 // On the tube, in the axes of the undeformed tube on its base.
 static const quantity reactions[] = {
@@ -284,6 +304,7 @@ static const quantity_group groups[] = {
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
     {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
     {.title = "section loads at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
+    {.title = "section at a station", .each = EACH_STATION, QUANTITY_ROWS(sections)},
     {.title = "loads of a support on the tube", .each = EACH_SUPPORT, QUANTITY_ROWS(reactions)},
 };
 static const quantity_group balances[] = {
@@ -334,6 +355,22 @@ static void find_tube(const launch_state *self, const double *y, launch_instant 
     now->tip_inertial.v = m3_apply(A_IR, section.v);
     now->tip_inertial.angles =
         direction_angles_of(m3_apply(A_IR, axis), m3_apply(A_IR, v3_cross(section.w, axis)));
+}
+
+static void find_sections(const launch_state *self, const double *y, launch_instant *now)
+{
+    const launching_system *launching = &self->launcher.launching;
+    m3 A_IR = q_matrix(q_from(y + launching->layout.quaternion));
+    for (int i = 0; i < model_tubes(launching->model)->station_count; i++) {
+        launching_section at;
+        launching_section_at(launching, y, launching->cut[i].at, &at);
+        const body_motion section = {
+            .r = v3_add(v3_from(y + launching->layout.r), m3_apply(A_IR, at.P)),
+            .v = m3_apply(A_IR, at.v),
+            .A = m3_mul(A_IR, at.A),
+            .w = m3_apply(A_IR, at.w)};
+        body_instant_find(&section, &now->section[i]);
+    }
 }
 
 static void find_contacts(const launch_state *self, launch_instant *now)
@@ -396,6 +433,7 @@ static void find_instant(const launch_state *self, double t, const double *y, do
     simulation_loads(self, &now->input, y, &now->out, &now->loads);
     base_angles(&self->launcher.base, t, &now->input.launching.base, now->base);
     find_tube(self, y, now);
+    find_sections(self, y, now);
     if (now->rocket)
         find_rocket(self, y, now);
     base_find(&self->launcher.base, &now->input.found, &now->out.base, y + self->launcher.base_at,

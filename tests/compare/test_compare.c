@@ -308,6 +308,41 @@ static void test_command(void **state)
                      0);
 }
 
+// On a vehicle at rest: chassis and elevation platform feel gravity along their axes, the chassis'
+// gyro nothing; a gauge in um/m; what parts there are.
+static void test_launcher(void **state)
+{
+    (void)state;
+    if (run("launchdyn run " LD_SOURCE_DIR "/examples/reference.yaml --out out -q"
+            " --set base.road='{class: , tracks: , seed: , harmonics: , wavelengths: , flat: "
+            "true}' --set base.speed='0 m/s' --set 'tubes.loads=[{at: 2.5 m}]'"
+            " --set run.lead_in='20 ms' --set run.end='2 ms'"))
+        fail_msg("%s", shell.err);
+    write_text("log.csv", "t [s],up [g],along [m/s2],turn [deg/s],gauge [um/m]\n"
+                          "-0.015,1,3.3219,0,0\n-0.01,1,3.3219,0,0\n-0.005,1,3.3219,0,0\n");
+    write_text("log.yaml",
+               "sensors:\n"
+               "  - {column: up, kind: accelerometer, on: chassis, at: 1 0.5 0.3 m, axis: 0 1 0}\n"
+               "  - {column: along, kind: accelerometer, on: elevation, at: 0.5 0.2 0 m,\n"
+               "     axis: 1 0 0}\n"
+               "  - {column: turn, kind: gyro, on: azimuth, axis: 0 1 0}\n"
+               "  - {column: gauge, kind: strain, on: station.1, at: 0 0.085 0 m}\n");
+    ld_comparison *found = compare("log.csv", NULL);
+    const ld_compared_series *of[4];
+    for (int i = 0; i < 4; i++)
+        of[i] = ld_comparison_series(found, i);
+    CHECK_BELOW("at rest on the chassis, up [m/s2]", of[0]->largest, 2e-6);
+    CHECK_BELOW("on the platform, along the tube [m/s2]", of[1]->largest, 5e-5);
+    CHECK_BELOW("of the azimuth platform [rad/s]", of[2]->largest, 1e-12);
+    // half a metre of tube beyond it, 19.8 deg steep: of bending less of its weight along it
+    const double R = 0.085, r = 0.0825, E = 2.1e11, steep = 19.8 * acos(-1) / 180;
+    double load = 7850 * g * 0.5 / E; // of rho g l/E
+    double bent = load * cos(steep) * R * 0.5 / 2 / ((R * R + r * r) / 4);
+    CHECK_NEAR("strain above the axis", of[3]->simulated[1], bent - load * sin(steep), 1e-9);
+    assert_string_equal(of[3]->unit, "");
+    ld_comparison_free(found);
+}
+
 static void refused(const char *log, const char *yaml, const char *why)
 {
     write_text("bad.csv", log);
@@ -356,6 +391,14 @@ static void test_refusals(void **state)
             "sensors.1.at: is not allowed with kind: gyro");
     refused("t [s],w [rad/s]\n0,1\n", "sensors:\n  - {column: w, kind: column, of: rocket.wxy}\n",
             "sensors.1.of: the run has no column \"rocket.wxy\", did you mean \"rocket.wx\"?");
+    refused("t [s],w [rad/s]\n0,1\n", ONE(", on: chassi"),
+            "bad.yaml:2:46: sensors.1.on: the run has no column \"chassi.wx\"");
+    refused("t [s],w [rad/s]\n0,1\n", ONE(", on: rock"),
+            "sensors.1.on: the run has no column \"rock.wx\", did you mean \"rocket\"?");
+    refused("t [s],w\n0,1\n", "sensors:\n  - {column: w, kind: strain}\n",
+            "sensors.1.on: required, a station of the tube: station.1");
+    refused("t [s],w [m]\n0,1\n", "sensors:\n  - {column: w, kind: altimeter, on: chassis}\n",
+            "sensors.1.on: is not allowed with kind: altimeter");
     refused("t [s],w [rad/s]\n0,1\n", "clock: {find: v}\n" ONE(""),
             "clock.find: expected the column of a sensor");
     refused("t [s],w [rad/s]\n0,1\n1,1\n", "clock: {find: w}\n" ONE(""),
@@ -378,8 +421,8 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_series),   TEST(test_noise),   TEST(test_verdicts),
-        TEST(test_left_out), TEST(test_command), TEST(test_refusals),
+        TEST(test_series),  TEST(test_noise),    TEST(test_verdicts), TEST(test_left_out),
+        TEST(test_command), TEST(test_launcher), TEST(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 // Simulated sensors against closed forms: a turning body with a lever arm, rest on a rail, free
-// fall, the columns of a flight against differences of its velocities.
+// fall, the columns of a flight against differences of its velocities; on a launcher: a body that
+// turns about a skew axis, one that is shaken, a tube that bends under its weight.
 #include "support/check.h"
 
 #include <stdlib.h>
@@ -14,13 +15,16 @@ static const double g = 9.80665;
 
 // ---- made columns
 
-enum { ROWS = 101, COLUMNS = 11 };
+enum { ROWS = 101, FINE_ROWS = 1001, COLUMNS = 20 };
 static const char *const names[COLUMNS] = {
-    "t",         "rocket.fx",     "rocket.fy",     "rocket.fz",     "rocket.wx", "rocket.wy",
-    "rocket.wz", "rocket.wx_dot", "rocket.wy_dot", "rocket.wz_dot", "center.y"};
+    "t",         "rocket.fx",  "rocket.fy",     "rocket.fz",     "rocket.wx",
+    "rocket.wy", "rocket.wz",  "rocket.wx_dot", "rocket.wy_dot", "rocket.wz_dot",
+    "center.y",  "body.b.yaw", "body.b.pitch",  "body.b.roll",   "body.b.vx",
+    "body.b.vy", "body.b.vz",  "body.b.wx",     "body.b.wy",     "body.b.wz"};
+enum { OF_BODY = 10 }; // in a row without t
 
 typedef struct made_run {
-    double value[COLUMNS][ROWS];
+    double value[COLUMNS][FINE_ROWS];
     const char *name[COLUMNS], *unit[COLUMNS];
     const double *column[COLUMNS];
     run_series series;
@@ -28,11 +32,11 @@ typedef struct made_run {
 
 static made_run made;
 
-// `fill` gives the row of time t, without t.
-static const run_series *make_run(void (*fill)(double t, double row[COLUMNS - 1]))
+// `fill` gives the row of time t, without t; from -0.1 s to 0.9 s.
+static const run_series *make_rows(int rows, void (*fill)(double t, double row[COLUMNS - 1]))
 {
-    for (int i = 0; i < ROWS; i++) {
-        double row[COLUMNS - 1] = {0}, t = 0.01 * i - 0.1;
+    for (int i = 0; i < rows; i++) {
+        double row[COLUMNS - 1] = {0}, t = (double)i / (rows - 1) - 0.1;
         fill(t, row);
         made.value[0][i] = t;
         for (int k = 1; k < COLUMNS; k++)
@@ -43,10 +47,16 @@ static const run_series *make_run(void (*fill)(double t, double row[COLUMNS - 1]
         made.unit[k] = "1";
         made.column[k] = made.value[k];
     }
-    made.series = (run_series){.launch = {COLUMNS, ROWS, made.name, made.unit, made.column},
+    made.series = (run_series){.launch = {COLUMNS, (size_t)rows, made.name, made.unit, made.column},
                                .t_first = -INFINITY,
-                               .t_last = INFINITY};
+                               .t_last = INFINITY,
+                               .gravity = g};
     return &made.series;
+}
+
+static const run_series *make_run(void (*fill)(double t, double row[COLUMNS - 1]))
+{
+    return make_rows(ROWS, fill);
 }
 
 static sensor plain(sensor_kind kind)
@@ -165,6 +175,100 @@ static void test_low_pass(void **state)
     CHECK_BELOW("a ramp through order 1, 10 ms late", worst, 1e-13);
 }
 
+// ---- on a launcher
+
+// A body that turns by 0.4 + 3 t + 10 t^2 about an axis that is none of its own or of I's, through
+// a point that is not its origin.
+static const v3 skew = {0.36, 0.48, 0.8};
+
+static m3 turned_by(double angle)
+{
+    m3 K = m3_skew(skew);
+    return m3_add(m3_identity(),
+                  m3_add(m3_scale(sin(angle), K), m3_scale(1 - cos(angle), m3_mul(K, K))));
+}
+
+static m3 skew_frame(double t)
+{
+    return m3_mul(turned_by(0.4 + 3 * t + 10 * t * t), m3_rotation_x(0.7));
+}
+
+static const v3 arm = {0.9, -0.4, 0.3}; // from the point on the axis to the origin, at angle 0
+
+static void turn_skew(double t, double row[COLUMNS - 1])
+{
+    m3 A = skew_frame(t);
+    v3 w = v3_scale(3 + 20 * t, skew);
+    v3 r = m3_apply(turned_by(0.4 + 3 * t + 10 * t * t), arm);
+    m3_yaw_pitch_roll(&A, row + OF_BODY);
+    v3_store(row + OF_BODY + 3, v3_cross(w, r));
+    v3_store(row + OF_BODY + 6, m3_apply_transposed(A, w));
+}
+
+// Largest error of an accelerometer off the origin against its centripetal and tangential
+// acceleration and gravity.
+static double skew_error(int rows)
+{
+    const run_series *run = make_rows(rows, turn_skew);
+    const double t[] = {0.1, 0.2503, 0.4, 0.6997, 0.85};
+    double reading[5], worst = 0;
+    sensor of = plain(SENSOR_ACCELEROMETER);
+    of.on = (char *)"body.b";
+    v3_store(of.at, v3_make(-0.2, 0.5, 0.7));
+    v3_store(of.axis, v3_make(0.6, -0.64, 0.48));
+    read_at(&of, run, 5, t, reading);
+    for (int i = 0; i < 5; i++) {
+        m3 A = skew_frame(t[i]);
+        double w = 3 + 20 * t[i];
+        v3 p = v3_add(m3_apply(turned_by(0.4 + 3 * t[i] + 10 * t[i] * t[i]), arm),
+                      m3_apply(A, v3_from(of.at)));
+        v3 across = v3_sub(p, v3_scale(v3_dot(p, skew), skew));
+        v3 a = v3_axpy(v3_scale(20, v3_cross(skew, across)), -w * w, across);
+        a.y += g;
+        worst = fmax(worst, fabs(v3_dot(m3_apply(A, v3_from(of.axis)), a) - reading[i]));
+    }
+    return worst;
+}
+
+static void test_skew_axis(void **state)
+{
+    (void)state;
+    double coarse = skew_error(501), fine = skew_error(FINE_ROWS), t = 0.5, rate;
+    CHECK_BELOW("about a skew axis, up to 370 m/s2, rows of 1 ms [m/s2]", fine, 3e-2);
+    CHECK_WITHIN("of rows twice as far apart, over that", coarse / fine, 3.5, 4.5);
+    sensor of = plain(SENSOR_GYRO);
+    of.on = (char *)"body.b";
+    v3_store(of.axis, v3_make(0.6, -0.64, 0.48));
+    read_at(&of, &made.series, 1, &t, &rate);
+    double expected = 13 * v3_dot(m3_apply(skew_frame(t), v3_from(of.axis)), skew);
+    CHECK_NEAR("rate about a skew axis [rad/s]", rate, expected, 1e-5);
+}
+
+// A body that falls freely, is stopped within no time at 0.4 s and then stands: the jump between
+// two rows at one time is no acceleration, nor is the rounding between rows that are nearly one.
+static void test_jump(void **state)
+{
+    (void)state;
+    static double t[] = {0, 0.1, 0.2, 0.3, 0.4, 0.4, 0.5, 0.6, 0.6 + 1e-12, 0.7};
+    enum { JUMP_ROWS = sizeof t / sizeof *t };
+    const run_series *run = make_rows(JUMP_ROWS, turn_skew);
+    memcpy(made.value[0], t, sizeof t);
+    for (int i = 0; i < JUMP_ROWS; i++) {
+        for (int k = 1; k < COLUMNS; k++)
+            made.value[k][i] = 0;
+        made.value[OF_BODY + 5][i] = i < 5 ? -g * t[i] : 1e-9 * (i == 8);
+    }
+    sensor of = plain(SENSOR_ACCELEROMETER);
+    const double at[] = {0.2, 0.34, 0.46, 0.6};
+    double reading[4];
+    of.on = (char *)"body.b";
+    of.axis[0] = 0;
+    of.axis[1] = 1;
+    read_at(&of, run, 4, at, reading);
+    CHECK_BELOW("falling [m/s2]", fmax(fabs(reading[0]), fabs(reading[1])), 1e-13);
+    CHECK_BELOW("standing [m/s2]", fmax(fabs(reading[2] - g), fabs(reading[3] - g)), 1e-7);
+}
+
 // ---- runs
 
 typedef struct kept_run {
@@ -190,6 +294,7 @@ static void keep_run(kept_run *run, const char *text)
     const ld_run_options options = {.sink = ld_history_sink(run->history)};
     assert_int_equal(ld_simulation_run(run->simulation, &options, run->summary, &error), LD_OK);
     assert_int_equal(run_series_of_run(&run->series, run->history, run->summary, 1, &error), LD_OK);
+    run->series.gravity = g;
 }
 
 static void free_run(kept_run *run)
@@ -226,6 +331,78 @@ static void test_rest(void **state)
     CHECK_NEAR("along the axis, at rest [m/s2]", x[0], g * sin(pitch), 1e-3);
     CHECK_NEAR("across it [m/s2]", hypot(y[0], z[0]), g * cos(pitch), 4e-4);
     CHECK_NEAR("in all [m/s2]", sqrt(x[0] * x[0] + y[0] * y[0] + z[0] * z[0]), g, 1e-11);
+    free_run(&run);
+}
+
+// A tube that stands at 20 deg on a base that leans by 40 deg: beyond the supports it is a
+// cantilever under its own weight, of mu [kg/m] with g in the section's axes. At (y, z) of the
+// section
+//   strain = mu l (g_x/(E A) - (y g_y + z g_z) l/(2 E I))
+static void test_strain(void **state)
+{
+    (void)state;
+    kept_run run;
+    keep_run(&run, "include: fixed.yaml\n"
+                   "base: {kind: prescribed, elevation: 20 deg, motion: {\n"
+                   "  roll: [{amplitude: 40 deg, frequency: 1e-4 Hz, phase: 90 deg}]}}\n"
+                   "tubes: {loads: [{at: 2.3 m}]}\n"
+                   "run: {lead_in: 5 ms}\n");
+    const double R = 0.085, r = 0.0825, pi = acos(-1), E = 2.1e11, l = 0.7, t[] = {-0.002};
+    const double A = pi * (R * R - r * r), I = pi / 4 * (R * R * R * R - r * r * r * r);
+    m3 stands = m3_mul(m3_rotation_x(2 * pi / 9), m3_rotation_z(pi / 9));
+    v3 weight = m3_apply_transposed(stands, v3_make(0, -7850 * A * g, 0));
+    double along, above, beside, reading[3];
+    sensor of = plain(SENSOR_STRAIN), level = plain(SENSOR_ACCELEROMETER);
+    of.on = level.on = (char *)"station.1";
+    read_at(&of, &run.series, 1, t, &along);
+    CHECK_NEAR("strain of the axis", along, weight.x * l / (E * A), 4e-11);
+    of.at[1] = 0.06;
+    read_at(&of, &run.series, 1, t, &above);
+    of.at[2] = 0.05;
+    read_at(&of, &run.series, 1, t, &beside);
+    double by_y = -0.06 * weight.y * l * l / (2 * E * I),
+           by_z = -0.05 * weight.z * l * l / (2 * E * I);
+    CHECK_NEAR("strain of bending, 6 cm above the axis", above - along, by_y, 1e-4 * fabs(by_y));
+    CHECK_NEAR("and 5 cm beside it", beside - above, by_z, 1e-4 * fabs(by_z));
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < 3; i++)
+            level.axis[i] = i == k;
+        read_at(&level, &run.series, 1, t, &reading[k]);
+    }
+    v3 f = v3_from(reading), felt = m3_apply_transposed(stands, v3_make(0, g, 0));
+    CHECK_NEAR("specific force at rest [m/s2]", v3_norm(f), g, 1e-6);
+    CHECK_BELOW("its direction, but for the sag [m/s2]", v3_norm(v3_sub(f, felt)), 2e-3);
+    free_run(&run);
+}
+
+// A launcher at rest on a base that is shaken: of the tube at 30 deg of elevation each place feels
+// the base's acceleration and gravity, but for what the tube gives way.
+static void test_shaken(void **state)
+{
+    (void)state;
+    kept_run run;
+    keep_run(&run, "include: fixed.yaml\n"
+                   "base: {kind: prescribed, elevation: 30 deg, motion: {\n"
+                   "  surge: [{amplitude: 0.2 m, frequency: 0.7 Hz, phase: 20 deg}],\n"
+                   "  heave: [{amplitude: 0.3 m, frequency: 0.5 Hz, phase: 50 deg}]}}\n"
+                   "tubes: {loads: [{at: 0.4 m}, {at: 1.1 m}]}\n"
+                   "run: {lead_in: 1 s, output_step: {lead_in: 2 ms, tube: 1 ms}}\n");
+    const double t[] = {-0.7, -0.4, -0.2}, pi = acos(-1);
+    double reading[3], worst = 0;
+    sensor of = plain(SENSOR_ACCELEROMETER);
+    of.on = (char *)"station.2";
+    of.at[1] = -0.08;
+    v3_store(of.axis, v3_make(0.48, 0.6, 0.64));
+    read_at(&of, &run.series, 3, t, reading);
+    for (int i = 0; i < 3; i++) {
+        double w1 = 2 * pi * 0.7, w2 = 2 * pi * 0.5;
+        // the run's clock is 0 at the ignition, the base moves by it
+        v3 f = {-w1 * w1 * 0.2 * sin(w1 * t[i] + pi / 9), g, 0};
+        f.y -= w2 * w2 * 0.3 * sin(w2 * t[i] + pi / 3.6);
+        v3 seen = m3_apply_transposed(m3_rotation_z(pi / 6), f);
+        worst = fmax(worst, fabs(v3_dot(seen, v3_from(of.axis)) - reading[i]));
+    }
+    CHECK_BELOW("on a shaken base, of 11 m/s2 [m/s2]", worst, 3e-4);
     free_run(&run);
 }
 
@@ -321,6 +498,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lever_arm), cmocka_unit_test(test_reading),
         cmocka_unit_test(test_low_pass),  cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_skew_axis), cmocka_unit_test(test_jump),
+        cmocka_unit_test(test_strain),    cmocka_unit_test(test_shaken),
         cmocka_unit_test(test_flight),    cmocka_unit_test(test_altimeter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

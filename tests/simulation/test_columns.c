@@ -162,6 +162,23 @@ static void expect_pose_angles(column_book *book, const char *part, m3 A)
     expect_of(book, part, "roll", atan2(-A.a[1][2], A.a[1][1]));
 }
 
+// Place, angles, velocity in I and rate in its own axes of a frame.
+static void expect_motion(column_book *book, const char *part, const moving *of)
+{
+    char stem[64];
+    double r[3], v[3], w[3];
+    v3_store(r, of->r);
+    v3_store(v, of->v);
+    v3_store(w, m3_apply_transposed(of->A, of->w));
+    snprintf(stem, sizeof stem, "%s.", part);
+    expect3(book, stem, xyz, r);
+    expect_pose_angles(book, part, of->A);
+    snprintf(stem, sizeof stem, "%s.v", part);
+    expect3(book, stem, xyz, v);
+    snprintf(stem, sizeof stem, "%s.w", part);
+    expect3(book, stem, xyz, w);
+}
+
 static double sum_of(const ld_sines *sines, double t)
 {
     double sum = 0;
@@ -220,6 +237,52 @@ static void say_tip(instant *at)
     expect3(book, "tip.inertial_", xyz, (double[]){end.r.x, end.r.y, end.r.z});
     expect3(book, "tip.inertial_v", xyz, (double[]){end.v.x, end.v.y, end.v.z});
     expect_direction(book, "tip.inertial_", &end);
+}
+
+// Wrenches that systems.guide_loads compares.
+static void say_wrench(column_book *book, const char *part, const char *const names[6],
+                       double value[6])
+{
+    for (int k = 0; k < 6; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s.%s", part, names[k]);
+        expect(book, name, value[k] = column_value(book, name));
+    }
+}
+
+static void say_supports(instant *at)
+{
+    static const char *const names[] = {"force_x",  "force_y",  "force_z",
+                                        "moment_x", "moment_y", "moment_z"};
+    double unused[6];
+    char part[32];
+    for (int i = 0; i < at->run->model->tubes.support_count; i++) {
+        snprintf(part, sizeof part, "support.%d", i + 1);
+        say_wrench(&at->run->book, part, names, unused);
+    }
+}
+
+// Motion of the section at a station, and what follows from the wrench that it carries.
+static void say_station(instant *at, int i)
+{
+    static const char *const carried[] = {"axial",  "shear_y",   "shear_z",
+                                          "torque", "bending_y", "bending_z"};
+    column_book *book = &at->run->book;
+    const ld_tubes *tubes = &at->run->model->tubes;
+    const ld_section *made = &tubes->section[0];
+    char part[32];
+    double of[6];
+    snprintf(part, sizeof part, "station.%d", i + 1);
+    say_wrench(book, part, carried, of);
+    const double *fibre = tubes->station[i].outer_fibre;
+    double EI = made->bending_stiffness, E = tubes->material.youngs_modulus;
+    expect_of(book, part, "bending", hypot(of[4], of[5]));
+    expect_of(book, part, "stress", E * (fabs(of[4] * fibre[1]) + fabs(of[5] * fibre[0])) / EI);
+    expect_of(book, part, "strain", of[0] / made->axial_stiffness);
+    expect_of(book, part, "curvature_y", of[5] / EI);
+    expect_of(book, part, "curvature_z", -of[4] / EI);
+    moving there = section(at, tubes->station[i].at);
+    expect_motion(book, part, &there);
 }
 
 // ---- rocket
@@ -548,6 +611,28 @@ static void say_chassis(instant *at)
                vehicle->drive.ki * at->marching[WHEEL_STATES * vehicle->wheel_count]);
 }
 
+// The platforms, each turned on its hinge by an angle about y or z of what carries it.
+static void say_platforms(instant *at)
+{
+    const ld_platform *given = &at->run->model->platform;
+    const ld_turret *turret[HINGES] = {&given->azimuth, &given->elevation};
+    const double *o = at->orientating;
+    m3 A = q_matrix(q_from(o + VEHICLE_QUATERNION));
+    moving carries = {v3_from(o + VEHICLE_R), v3_from(o + VEHICLE_V),
+                      m3_apply(A, v3_from(o + VEHICLE_W)), A};
+    for (int i = 0; i < HINGES; i++) {
+        double c = cos(o[VEHICLE_ANGLE + i]), s = sin(o[VEHICLE_ANGLE + i]);
+        const m3 turned[HINGES] = {{{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}},
+                                   {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}}};
+        v3 axis = m3_column(carries.A, i + 1);
+        v3 hinge = v3_add(carries.r, m3_apply(carries.A, v3_from(turret[i]->hinge_at)));
+        carries =
+            (moving){hinge, velocity_at(&carries, hinge),
+                     v3_axpy(carries.w, o[VEHICLE_RATE + i], axis), m3_mul(carries.A, turned[i])};
+        expect_motion(&at->run->book, i ? "elevation" : "azimuth", &carries);
+    }
+}
+
 static void say_hinges(instant *at, double power[VEHICLE_BODY_POWERS])
 {
     column_book *book = &at->run->book;
@@ -630,6 +715,7 @@ static void heights(const instant *at, double sum[2])
 static void say_vehicle(instant *at, double power[LAUNCHER_MOST_WORKS])
 {
     say_chassis(at);
+    say_platforms(at);
     say_hinges(at, power + POWER_COUNT);
     for (int i = 0; i < at->run->model->base.vehicle.wheel_count; i++)
         say_wheel(at, i, power + POWER_COUNT + VEHICLE_BODY_POWERS);
@@ -817,6 +903,10 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
     assert_true(dense_launch_rates(&run->dense, &at.place, &at.input.conditions, NULL, &at.out));
     say_frames(&at);
     say_tip(&at);
+    for (int i = 0; i < run->model->tubes.station_count; i++)
+        say_station(&at, i);
+    if (run->model->tubes.station_count)
+        say_supports(&at);
     say_rocket(&at);
     for (int i = 0; i < run->model->rocket.adaptor_count; i++)
         say_contact(&at, i, power);
@@ -957,6 +1047,7 @@ static void watch_run(const ld_model *model, const column_bound *bound, size_t b
 static const column_bound bounds[] = {
     {"rocket.[yz]_dot", 2e-6, false},
     {"tip.inertial_v?", 4e-9, false},
+    {"station.*.[vw]?", 4e-9, false},
     {"tip.inertial_*_rate", 1e-9, false},
     {"rocket.w?_dot", 1e-9, false},
     {"rocket.*_dot", 1e-13, false},
@@ -1009,6 +1100,10 @@ static void test_prescribed_base(void **state)
     model.run.lead_in = 0.02;
     model.tubes.slot.angle.data[1] *= -1; // a negative slot force
     move_base(&model.base);
+    model.tubes.material.youngs_modulus = 2.1e11;
+    model.tubes.station_count = 2;
+    model.tubes.station[0] = (ld_station){1.3, {0.07, 0.05}};
+    model.tubes.station[1] = (ld_station){3.1, {0.07, 0.05}};
     let_the_wind_blow(&model);
     watch_run(&model, bounds, sizeof bounds / sizeof *bounds);
     reference_model_free(&model);

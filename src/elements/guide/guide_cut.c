@@ -99,6 +99,10 @@ void guide_cut_build(guide_cut *self, const flexible_tube *tube, const ld_tubes 
                      model->point_mass[i].mass);
     }
     find_fibre(self, model, station);
+    const ld_section *section = section_at(model, at);
+    self->EA = section->axial_stiffness;
+    self->EI_y = section_stiffness_y(section);
+    self->EI_z = section_stiffness_z(section);
 }
 
 // ---- at an instant ----
@@ -173,5 +177,8 @@ guide_load guide_cut_load(const guide_cut *self, const flexible_tube *tube,
     guide_load load = {.wrench = {m3_apply_transposed(A, f), m3_apply_transposed(A, m)}};
     load.bending = hypot(load.wrench.m.y, load.wrench.m.z);
     load.stress = bending_stress(self, load.wrench.m);
+    load.strain = load.wrench.f.x / self->EA;
+    load.curvature_y = load.wrench.m.z / self->EI_z;
+    load.curvature_z = -load.wrench.m.y / self->EI_y;
     return load;
 }

@@ -23,6 +23,7 @@ typedef struct guide_cut {
     double polar, twist[LD_NT];                    // int_x^L rho I_p dx, int_x^L rho I_p tau dx
     double fibre_y, fibre_z; // E z/(E I_y), E y/(E I_z) [1/m3] at the outer fibre; NaN: not known
     bool round;              // one outer radius all around
+    double EA, EI_y, EI_z;   // [N], [N m2] of the section
 } guide_cut;
 
 // Of a station of the tube built of `model`. What acts, and what has mass, at the station
@@ -41,6 +42,8 @@ typedef struct guide_load {
     guide_wrench wrench; // of the part beyond on the part behind at the axis' point, in its axes
     double bending;      // [N m] magnitude of the bending moment
     double stress;       // [Pa] largest bending stress; NaN: the outer fibre is not known
+    // at (y, z) from the elastic axis the strain along it is strain - y curvature_y - z curvature_z
+    double strain, curvature_y, curvature_z; // of the axis; [1/m] u_y'', u_z''
 } guide_load;
 
 // P, A: the section's point of the axis and frame in R; `beyond`: the sum of the forces on the part

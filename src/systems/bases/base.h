@@ -81,11 +81,6 @@ typedef struct fmu_instant {
     double work; // [J] that the wrench did on it
 } fmu_instant;
 
-// A body as its columns have it.
-typedef struct body_instant {
-    double r[3], angles[3], v[3], w[3];
-} body_instant;
-
 // A joint that turns about one axis or slides along one.
 typedef struct axis_instant {
     double state[2]; // coordinate and its rate

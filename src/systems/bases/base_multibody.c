@@ -362,29 +362,11 @@ static const quantity_group input_groups[] = {
 };
 static const quantity_table inputs = {input_groups, sizeof input_groups / sizeof *input_groups};
 
-// Upright, yaw and roll turn about one axis: that is told as roll.
-static void find_angles(const m3 *A, double angles[3])
-{
-    m3_yaw_pitch_roll(A, angles);
-    if (hypot(A->a[0][0], A->a[2][0]) > 1e-9)
-        return;
-    angles[0] = 0;
-    angles[2] = atan2(A->a[2][1], A->a[2][2]);
-}
-
-static void find_body(const body_motion *from, body_instant *to)
-{
-    v3_store(to->r, from->r);
-    v3_store(to->v, from->v);
-    v3_store(to->w, m3_apply_transposed(from->A, from->w));
-    find_angles(&from->A, to->angles);
-}
-
 // An element, the chain standing there.
 static void find_element(const mechanism_system *self, int element, body_instant *to)
 {
     body_motion from = mechanism_body_motion(self, element);
-    find_body(&from, to);
+    body_instant_find(&from, to);
 }
 
 // A joint with one axis.
@@ -454,7 +436,8 @@ static void fill_instant(const base_system *base, const base_found *found,
         find_element(self, i, &now->body[i]);
     find_beams(self, &found->mechanism, now);
     const base_frame *carrier = &found->mechanism.carrier;
-    find_body(&(body_motion){carrier->r, carrier->v, carrier->A, carrier->w}, &now->carrier);
+    body_instant_find(&(body_motion){carrier->r, carrier->v, carrier->A, carrier->w},
+                      &now->carrier);
     mechanism_joint_loads(self, &found->mechanism, output->rate, &output->report.mechanism,
                           now->joint);
     find_joints(self, &found->mechanism, of, now);

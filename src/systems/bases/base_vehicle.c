@@ -277,12 +277,27 @@ static const quantity of_hinges[] = {
     {"%s.torque", "N.m", "%s: torque of stabiliser or lock", EACH(hinge, torque)},
     {"%s.friction", "N.m", "%s: friction in the hinge", EACH(hinge, friction)},
 };
+static const quantity of_platforms[] = {
+    {"%s.x", "m", "%s platform: centre of its hinge in I", EACH(platform, r[0])},
+    {"%s.y", "m", "%s platform: centre of its hinge in I", EACH(platform, r[1])},
+    {"%s.z", "m", "%s platform: centre of its hinge in I", EACH(platform, r[2])},
+    {"%s.yaw", "rad", "%s platform: yaw of Ry(yaw) Rz(pitch) Rx(roll)", EACH(platform, angles[0])},
+    {"%s.pitch", "rad", "%s platform: pitch", EACH(platform, angles[1])},
+    {"%s.roll", "rad", "%s platform: roll", EACH(platform, angles[2])},
+    {"%s.vx", "m/s", "%s platform: velocity of the centre of its hinge in I", EACH(platform, v[0])},
+    {"%s.vy", "m/s", "%s platform: velocity of the centre of its hinge in I", EACH(platform, v[1])},
+    {"%s.vz", "m/s", "%s platform: velocity of the centre of its hinge in I", EACH(platform, v[2])},
+    {"%s.wx", "rad/s", "%s platform: angular velocity in its own axes", EACH(platform, w[0])},
+    {"%s.wy", "rad/s", "%s platform: angular velocity in its own axes", EACH(platform, w[1])},
+    {"%s.wz", "rad/s", "%s platform: angular velocity in its own axes", EACH(platform, w[2])},
+};
 static const quantity of_jets[] = {
     {"jet.force", "N", "force on the elevation platform by the jets of rockets that have left, along -x of T", AT(jet)},
 };
 static const quantity_group quantity_groups[] = {
     {.title = "chassis of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(of_chassis)},
     {.title = "each hinge of a vehicle", .each = EACH_HINGE, QUANTITY_ROWS(of_hinges)},
+    {.title = "each platform of a vehicle", .each = EACH_HINGE, QUANTITY_ROWS(of_platforms)},
     {.title = "drive of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(rolling_drive_columns)},
     {.title = "each wheel of a vehicle", .each = EACH_WHEEL, QUANTITY_ROWS(rolling_wheel_columns)},
     {.title = "jets on its platform", .each = EACH_JET, QUANTITY_ROWS(of_jets)},
@@ -332,9 +347,12 @@ static void fill_instant(const base_system *base, const base_found *found,
     memcpy(now->chassis.r, state + VEHICLE_R, sizeof now->chassis.r);
     memcpy(now->chassis.u, state + self->q_count, sizeof now->chassis.u);
     m3_yaw_pitch_roll(&found->mechanism.body[self->wheels].A, now->chassis.angles);
+    mechanism_stand(self, &found->mechanism);
     for (int i = 0; i < self->hold_count; i++) {
         now->hinge[i] = report->hold[i];
         now->hinge[i].friction = report->friction[self->hold[i].joint];
+        body_motion platform = mechanism_body_motion(self, 1 + i);
+        body_instant_find(&platform, &now->platform[i]);
     }
     mechanism_base_fill_rolling(base, output, state, &now->rolling);
     now->jet = output->report.jet;

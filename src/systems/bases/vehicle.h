@@ -5,6 +5,7 @@
 #ifndef LD_SYSTEMS_VEHICLE_H
 #define LD_SYSTEMS_VEHICLE_H
 
+#include "systems/bases/body_instant.h"
 #include "systems/mechanism/marching.h"
 #include "systems/mechanism/mechanism.h"
 
@@ -69,7 +70,8 @@ typedef struct vehicle_instant {
         double angles[3];  // yaw, pitch, roll
     } chassis;
     hinge_report hinge[HINGES];
-    double jet; // [N] of all jets, along -x of T
+    body_instant platform[HINGES]; // that the hinge carries
+    double jet;                    // [N] of all jets, along -x of T
 } vehicle_instant;
 
 #endif
