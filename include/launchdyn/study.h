@@ -99,10 +99,13 @@ typedef struct ld_study_view {
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
                           ///< others are from it is shown instead (docs/study.md); NULL: none
-    const char *csv;      ///< of `against`: besides, a CSV file with the same; NULL: not requested
+    const char *csv;      ///< of `against`, `over`, `statistic`: besides, a CSV file with the same,
+                          ///< of `against` alone of every point; NULL: not requested
     const char *over;     ///< one or two swept keys, "base.speed,firing.interval": a row for each
                           ///< of their values is shown instead, pooled over the other keys; NULL:
                           ///< of `against` the keys that it names, else every point
+    const char *statistic; ///< as in ld_study_question: it alone is shown, in such rows; NULL:
+                           ///< means and deviations
 } ld_study_view;
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point

@@ -117,7 +117,7 @@ class ld_fit_options(Structure):
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
                 ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
-                ("over", c_char_p)]
+                ("over", c_char_p), ("statistic", c_char_p)]
 
 
 class ld_study_column(Structure):

@@ -470,19 +470,22 @@ class StudyData(Held):
 
     def show(self, what: Optional[str] = None, sensitivity: bool = False,
              measured: Optional[PathLike] = None, against: Optional[str] = None,
-             over: Union[str, Sequence[str], None] = None) -> str:
+             over: Union[str, Sequence[str], None] = None,
+             statistic: Optional[str] = None) -> str:
         """The tables that `launchdyn study show` prints, of results by name or "all"; compared with
         the `measured` launches of a CSV file; how far points of the sweep are from one, `against`;
-        or a row for each value of one swept key or two, `over`, pooled over the others."""
+        or a row for each value of one swept key or two, `over`, pooled over the others, of means
+        and deviations or of one `statistic`."""
         error, view = ld_error(), ld_study_view(
             what=coded(what) if what else None, sensitivity=sensitivity,
             measured=coded_path(measured) if measured else None,
             against=coded(against) if against else None,
-            over=coded(over if isinstance(over, str) else ",".join(over)) if over else None)
+            over=coded(over if isinstance(over, str) else ",".join(over)) if over else None,
+            statistic=coded(statistic) if statistic else None)
         status = []
         text = printed(lambda to: status.append(library.ld_study_show(
             coded_path(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
-        named = what and not measured and not against and not over
+        named = what and not (measured or against or over or statistic)
         check_name(status[0], error) if named else check(status[0], error)
         return text
 

@@ -143,18 +143,18 @@ static int finish(ld_status status, const ld_error *error, const char *done, con
 static const char *wrong_to_show(const study_wishes *wishes)
 {
     const ld_study_view *view = &wishes->view;
-    if (view->measured && (view->sensitivity || view->against || view->over))
-        return "--measured excludes --sensitivity, --against and --over";
-    if (view->sensitivity && (view->against || view->over))
-        return "--sensitivity excludes --against and --over";
-    if (view->json && view->over)
-        return "--over is printed as a table; --json shows every point";
-    if (wishes->statistic || wishes->map)
-        return "--statistic and --map require study plot DIR";
+    const bool rows = view->over || view->statistic;
+    if (view->measured && (view->sensitivity || view->against || rows))
+        return "--measured excludes --sensitivity, --against, --over and --statistic";
+    if (view->sensitivity && (view->against || rows))
+        return "--sensitivity excludes --against, --over and --statistic";
+    if (wishes->map)
+        return "--map requires study plot DIR";
     if (wishes->footprint)
         return "--footprint requires study export DIR";
-    if (wishes->hdf5 || (wishes->csv && !view->against))
-        return "--csv and --hdf5 require study export DIR, or --csv study show DIR --against";
+    if (wishes->hdf5 || (wishes->csv && !view->against && !rows))
+        return "--csv and --hdf5 require study export DIR, or --csv study show DIR with --over, "
+               "--against or --statistic";
     return NULL;
 }
 
@@ -320,12 +320,14 @@ int command_study(const command *self, int argc, char **argv)
         {"and", '\0', OPTION_TEXT, &wishes.and_over,
          "For show, plot: a second swept key, of plot as a family of curves or a map", "KEY"},
         {"statistic", '\0', OPTION_TEXT, &wishes.statistic,
-         "For plot: mean (default), deviation, quantile:P, share:>LIMIT, share:<LIMIT or "
-         "footprint[:SHARE]",
+         "For show, plot: mean (default of plot), deviation, quantile:P, share:>LIMIT, "
+         "share:<LIMIT or footprint[:SHARE]",
          "NAME"},
         {"map", '\0', OPTION_FLAG, &wishes.map, "For plot: draw two keys as a map", NULL},
         {"csv", '\0', OPTION_TEXT, &wishes.csv,
-         "For export: write the table as CSV; for show --against: write the differences", "FILE"},
+         "For export: write the table as CSV; for show --over, --against, --statistic: write the "
+         "rows",
+         "FILE"},
         {"hdf5", '\0', OPTION_TEXT, &wishes.hdf5, "For export: write the table as HDF5", "FILE"},
         {"footprint", '\0', OPTION_TEXT, &wishes.footprint,
          "For export: write the footprints with 95, 99 and 99.9 % of the landing points, for range "
@@ -342,8 +344,9 @@ int command_study(const command *self, int argc, char **argv)
                                       .json = json,
                                       .measured = measured,
                                       .against = against,
-                                      .csv = against ? wishes.csv : NULL,
-                                      .over = join_keys(&wishes)};
+                                      .csv = wishes.csv,
+                                      .over = join_keys(&wishes),
+                                      .statistic = wishes.statistic};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
         } else if (line.count == 2 && !again) {

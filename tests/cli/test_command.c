@@ -119,10 +119,9 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "--sensitivity", 2, "require study show DIR\n");
     expect_complaint(STUDY "--measured x.csv", 2, "require study show DIR\n");
     expect_complaint("launchdyn study show x --measured x.csv --over base.speed", 2,
-                     "--measured excludes --sensitivity, --against and --over\n");
+                     "--measured excludes --sensitivity, --against, --over and --statistic\n");
     expect_complaint("launchdyn study show x --and base.speed", 2, "--and requires --over KEY\n");
-    expect_complaint("launchdyn study show x --statistic mean", 2,
-                     "--statistic and --map require study plot DIR\n");
+    expect_complaint("launchdyn study show x --map", 2, "--map requires study plot DIR\n");
     expect_complaint("launchdyn study plot x --json", 2,
                      "study plot takes --what, --over, --and, --against, --statistic, --map and "
                      "--out\n");
@@ -131,7 +130,7 @@ static void test_wrong_words_of_a_study(void **state)
                      "DIR\n");
     expect_complaint(STUDY "--against 1", 2, "require study show DIR\n");
     expect_complaint("launchdyn study show x --against 1 --sensitivity", 2,
-                     "--sensitivity excludes --against and --over\n");
+                     "--sensitivity excludes --against, --over and --statistic\n");
     expect_complaint("launchdyn study show x --csv y.csv", 2,
                      "--csv and --hdf5 require study export DIR, or --csv");
     expect_complaint("launchdyn report x --measured x.csv", 2,

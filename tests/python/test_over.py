@@ -1,6 +1,8 @@
 """Results over swept keys: pooled numbers against those computed here from the study's database, by
 name; pictures' axes read back; what is refused."""
 
+import csv
+import json
 import math
 import re
 import sqlite3
@@ -144,6 +146,50 @@ class TestNumbers(Case):
         self.assertAlmostEqual(float(row.split()[2]), mean.value, 3)
         self.assertEqual(text, command("study", "show", self.where, "--over", "base.elevation",
                                        "--what", "exit_speed"))
+
+    def rows(self, *words):
+        """The rows of `study show --json` and, the same, those of --csv."""
+        show = ("study", "show", self.where, "--what", "exit_speed", *words)
+        printed = json.loads(command(*show, "--json"))
+        file = self.folder / "rows.csv"
+        command(*show, "--csv", file)
+        with file.open() as stream:
+            lines = list(csv.DictReader(stream))
+        found = printed["results"][0]
+        self.assertEqual(found["of"], ["exit_speed"])
+        self.assertEqual(len(lines), len(found["rows"]))
+        for line, row in zip(lines, found["rows"]):
+            self.assertEqual([line["result"], line["unit"]], ["exit_speed", found["unit"]])
+            for name, value in {**row, **row["swept"]}.items():
+                if isinstance(value, dict) and name != "swept":
+                    for part, end in (("value", ""), ("low", "_low"), ("high", "_high")):
+                        self.assertEqual(line[name + end],
+                                         "" if value[part] is None else line[name + end])
+                        if value[part] is not None:
+                            self.assertEqual(float(line[name + end]), value[part])
+                elif name != "swept":
+                    self.assertEqual(line[name], str(value))
+        return found["rows"]
+
+    def test_rows_in_full(self):
+        for words, name, asked in (
+                ((), "mean", {}), ((), "deviation", {"statistic": "deviation"}),
+                (("--statistic", "mean"), "mean", {}),
+                (("--statistic", "quantile:0.5"), "quantile", {"statistic": "quantile:0.5"}),
+                (("--statistic", "share:>38 m/s"), "share", {"statistic": "share:>38 m/s"}),
+                (("--against", "1"), "difference", {"against": "1"}),
+                (("--against", "1"), "ratio", {"against": "1", "statistic": "deviation"}),
+                (("--against", "1", "--statistic", "share:>38 m/s"), "difference",
+                 {"against": "1", "statistic": "share:>38 m/s"})):
+            rows = self.rows("--over", "base.elevation", *words)
+            cells = [cell for cell in self.data.over("exit_speed", "base.elevation", **asked)
+                     if not cell.reference]
+            self.assertEqual(len(rows), len(cells))
+            for row, cell in zip(rows, cells):
+                self.assertEqual(row["swept"], {"base.elevation": cell.values[0]})
+                self.assertEqual([row[name][part] for part in ("value", "low", "high")],
+                                 list(cell.estimate), (words, name))
+        self.assertEqual([row["points"] for row in self.rows("--statistic", "mean")], [1] * 6)
 
     def test_refused(self):
         for keys, more, said in (

@@ -456,7 +456,7 @@ static void test_shown(void **state)
     (void)state;
     ld_error error;
     ld_study_view view = {
-        .against = "base.speed=0 km/h", .over = "base.speed,firing.order", .csv = in("made.csv")};
+        .against = "base.speed=0 km/h", .over = "base.speed,firing.order", .csv = in("rows.csv")};
     char *text = shown("made", &view, LD_OK, &error);
     printf("%s", text);
     assert_non_null(strstr(text, "8 samples at 4 points, 1 failed; 95 % intervals"));
@@ -467,6 +467,14 @@ static void test_shown(void **state)
     assert_non_null(strstr(text, "\ndownrange and drift: areas of their ellipses\n"));
     check_ratios(text, "\n15 km/h     [2, 1] ", " 15 km/h [2, 1] %*f [%*f, %*f] %lf %lf", 5e-5);
     free(text);
+    text = read_whole(in("rows.csv"));
+    check_ratios(text, "\n15 km/h,\"[2, 1]\",downrange,",
+                 " 15 km/h,\"[2, 1]\",downrange,m,1,4,2,%*f,%*f,%*f,%lf,,,%lf,,", 1e-15);
+    assert_non_null(strstr(text, "\n15 km/h,\"[1, 2]\",downrange,m,1,1,1,,,,,,,,,\n"));
+    assert_non_null(strstr(text, "\n15 km/h,\"[2, 1]\",downrange and drift,m,1,4,2,,,,"));
+    free(text);
+    view = (ld_study_view){.against = "base.speed=0 km/h", .csv = in("made.csv")};
+    free(shown("made", &view, LD_OK, &error));
     text = read_whole(in("made.csv"));
     check_ratios(text, "\n4,15 km/h,\"[2, 1]\",2,downrange,",
                  " 4,15 km/h,\"[2, 1]\",2,downrange,m,4,2,%*f,%*f,%*f,%lf,,,%lf,,", 1e-15);

@@ -131,7 +131,7 @@ ld_status over_open(const char *keys, const char *point, const study_data *data,
                     ld_error *error)
 {
     *self = (over){.data = data};
-    if (data->swept_count == 0)
+    if (data->swept_count == 0 && (keys || point))
         return ld_fail(error, LD_ERR_INPUT,
                        "the study sweeps no key (scenario: sweep): it has one point only");
     ld_status status = keys ? open_keys(self, keys, error) : LD_OK;

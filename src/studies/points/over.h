@@ -27,8 +27,8 @@ typedef struct over {
 } over;
 
 // Opens the keys that the text names, "base.speed" or "base.speed,firing.interval", and the points
-// of reference (NULL: none). By number POINT stands for its values of these keys; other keys are
-// those of each point.
+// of reference (NULL: none). Without keys each point stands alone. By number POINT stands for its
+// values of these keys; other keys are those of each point.
 // @param self to be closed in any case
 // @return LD_OK, LD_ERR_INPUT (no sweep, no such key, no such point), LD_ERR_MEMORY
 ld_status over_open(const char *keys, const char *point, const study_data *data, over *self,

@@ -384,6 +384,13 @@ static void print_side_by_side(const shown *self)
         print_beside(self, from, from + CELLS < points ? from + CELLS : points);
 }
 
+// Whether rows of keys' values are asked for, pooled; of differences by themselves JSON and CSV
+// have every point.
+static bool asks_for_rows(const ld_study_view *view)
+{
+    return view->over || view->statistic;
+}
+
 // Reads what the view asks for, and computes what all points want together.
 static ld_status prepare(shown *self, ld_error *error)
 {
@@ -397,7 +404,7 @@ static ld_status prepare(shown *self, ld_error *error)
         return status;
     }
     ld_status status = shown_choose(self, error);
-    if (!status && !view->against && !view->over)
+    if (!status && !view->against && !asks_for_rows(view))
         status = shown_compute(self, error);
     if (status || !view->against)
         return status;
@@ -424,19 +431,36 @@ static ld_status print_points(shown *self, ld_error *error)
     return status;
 }
 
+typedef struct over_csv {
+    const shown *self;
+    over_asked *asked;
+} over_csv;
+
+static ld_status print_over_csv(void *context, FILE *stream, ld_error *error)
+{
+    const over_csv *of = context;
+    return show_over_csv(of->self, of->asked, stream, error);
+}
+
+// Rows of keys' values, as a table or JSON, and in a file.
 static ld_status print_over(shown *self, ld_error *error)
 {
-    over of;
-    ld_status status = show_over_open(self, &of, error);
+    const ld_study_view *view = self->view;
+    over_asked asked;
+    ld_status status = over_rows_open(self, &asked, error);
     if (!status)
-        status = show_over(self, &of, error);
-    over_close(&of);
+        status = view->json ? show_over_json(self, &asked, error) : show_over(self, &asked, error);
+    if (!status && view->csv && asks_for_rows(view))
+        status = table_file_print(print_over_csv, &(over_csv){self, &asked}, view->csv, error);
+    over_rows_close(&asked);
     return status;
 }
 
 static ld_status print_differences(shown *self, ld_error *error)
 {
     const ld_study_view *view = self->view;
+    if (asks_for_rows(view))
+        return print_over(self, error);
     ld_status status = view->json ? show_json(self, error) : print_over(self, error);
     if (!status && view->json && self->pairs.compared == 0)
         return ld_fail(error, LD_ERR_INPUT,
@@ -454,9 +478,9 @@ static ld_status print_all(shown *self, ld_error *error)
         return status;
     if (view->against && !view->measured)
         return print_differences(self, error);
-    if (view->json)
-        return show_json(self, error);
-    return view->over ? print_over(self, error) : print_points(self, error);
+    if (asks_for_rows(view))
+        return print_over(self, error);
+    return view->json ? show_json(self, error) : print_points(self, error);
 }
 
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,

@@ -208,7 +208,7 @@ ld_status ld_study_data_pool(ld_study_data *self, const ld_study_over *question,
                              const ld_study_cell **cell, size_t *count, ld_error *error)
 {
     const study_data *data = &self->data;
-    const char *first = data->swept_count > 0 ? data->swept[0] : NULL;
+    const char *first = data->swept_count > 0 ? data->swept[0] : "";
     over_statistic statistic;
     const study_column *result;
     *cell = NULL;

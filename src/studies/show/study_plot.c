@@ -97,7 +97,7 @@ static ld_status open_question(study_picture *self, ld_error *error)
     if (!status)
         status = over_open(question->over          ? question->over
                            : data->swept_count > 0 ? data->swept[0]
-                                                   : NULL,
+                                                   : "",
                            question->against, data, &self->over, error);
     if (!status)
         status = choose_results(self, error);
