@@ -99,13 +99,11 @@ typedef struct ld_study_view {
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
                           ///< others are from it is shown instead (docs/study.md); NULL: none
-    const char *csv;      ///< of `against`, `over`, `statistic`: besides, a CSV file with the same,
-                          ///< of `against` alone of every point; NULL: not requested
+    const char *csv;      ///< of `against` and `over`: besides, a CSV file with the same, of
+                          ///< `against` alone of every point; NULL: not requested
     const char *over;     ///< one or two swept keys, "base.speed,firing.interval": a row for each
                           ///< of their values is shown instead, pooled over the other keys; NULL:
                           ///< of `against` the keys that it names, else every point
-    const char *statistic; ///< as in ld_study_question: it alone is shown, in such rows; NULL:
-                           ///< means and deviations
 } ld_study_view;
 
 /// Prints counts, failures and statistics of what the folder holds, also while a study runs: point
@@ -115,6 +113,11 @@ typedef struct ld_study_view {
 ///         nowhere two pairs), LD_ERR_FILE, LD_ERR_MEMORY
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
                         ld_error *error);
+
+/// The same of one statistic, as in ld_study_question, in rows as those of `over`; without `over` a
+/// row for each point. NULL: as ld_study_show().
+ld_status ld_study_show_statistic(const char *folder, const char *statistic,
+                                  const ld_study_view *view, FILE *stream, ld_error *error);
 
 /// What is drawn of a sweep; NULL or zeros: the usual.
 typedef struct ld_study_question {

@@ -117,7 +117,7 @@ class ld_fit_options(Structure):
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
                 ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
-                ("over", c_char_p), ("statistic", c_char_p)]
+                ("over", c_char_p)]
 
 
 class ld_study_column(Structure):
@@ -390,7 +390,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
                              POINTER(ld_study_counts), _error]),
     "ld_study_join": (c_int, [_handle, _text, POINTER(ld_study_options),
                               POINTER(ld_study_counts), _error]),
-    "ld_study_show": (c_int, [_text, POINTER(ld_study_view), c_void_p, _error]),
+    "ld_study_show_statistic": (c_int, [_text, _text, POINTER(ld_study_view), c_void_p, _error]),
     "ld_study_merge": (c_int, [_text, c_void_p, _error]),
     "ld_study_export": (c_int, [_text, _text, _text, _error]),
     "ld_study_export_footprint": (c_int, [_text, _text, _error]),

@@ -480,11 +480,11 @@ class StudyData(Held):
             what=coded(what) if what else None, sensitivity=sensitivity,
             measured=coded_path(measured) if measured else None,
             against=coded(against) if against else None,
-            over=coded(over if isinstance(over, str) else ",".join(over)) if over else None,
-            statistic=coded(statistic) if statistic else None)
+            over=coded(over if isinstance(over, str) else ",".join(over)) if over else None)
         status = []
-        text = printed(lambda to: status.append(library.ld_study_show(
-            coded_path(self.folder), ctypes.byref(view), to, ctypes.byref(error))))
+        text = printed(lambda to: status.append(library.ld_study_show_statistic(
+            coded_path(self.folder), coded(statistic) if statistic else None, ctypes.byref(view),
+            to, ctypes.byref(error))))
         named = what and not (measured or against or over or statistic)
         check_name(status[0], error) if named else check(status[0], error)
         return text

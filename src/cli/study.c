@@ -143,7 +143,7 @@ static int finish(ld_status status, const ld_error *error, const char *done, con
 static const char *wrong_to_show(const study_wishes *wishes)
 {
     const ld_study_view *view = &wishes->view;
-    const bool rows = view->over || view->statistic;
+    const bool rows = view->over || wishes->statistic;
     if (view->measured && (view->sensitivity || view->against || rows))
         return "--measured excludes --sensitivity, --against, --over and --statistic";
     if (view->sensitivity && (view->against || rows))
@@ -213,7 +213,8 @@ static int study_folder(const char *verb, const char *folder, const study_wishes
         return EXIT_INPUT;
     }
     if (strcmp(verb, "show") == 0)
-        return finish(ld_study_show(folder, view, view->json ? stdout : command_text(), &error),
+        return finish(ld_study_show_statistic(folder, wishes->statistic, view,
+                                              view->json ? stdout : command_text(), &error),
                       &error, "read", folder);
     if (strcmp(verb, "merge") == 0)
         return finish(ld_study_merge(folder, command_text(), &error), &error, "merged", folder);
@@ -345,8 +346,7 @@ int command_study(const command *self, int argc, char **argv)
                                       .measured = measured,
                                       .against = against,
                                       .csv = wishes.csv,
-                                      .over = join_keys(&wishes),
-                                      .statistic = wishes.statistic};
+                                      .over = join_keys(&wishes)};
         if (shard && !read_shard(shard, &wishes)) {
             code = EXIT_INPUT;
         } else if (line.count == 2 && !again) {

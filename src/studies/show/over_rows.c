@@ -28,10 +28,10 @@ ld_status over_rows_open(const shown *self, over_asked *asked, ld_error *error)
 {
     const ld_study_view *view = self->view;
     char keys[OVER_KEYS * LD_MAX_PATH + 2] = "";
-    *asked = (over_asked){.chosen = view->statistic != NULL};
+    *asked = (over_asked){.chosen = self->statistic != NULL};
     if (!view->over && view->against)
         name_keys(self->data, view->against, keys, sizeof keys);
-    ld_status status = over_statistic_read(view->statistic, &asked->statistic, error);
+    ld_status status = over_statistic_read(self->statistic, &asked->statistic, error);
     return status ? status
                   : over_open(view->over ? view->over
                               : *keys    ? keys

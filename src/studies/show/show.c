@@ -386,9 +386,9 @@ static void print_side_by_side(const shown *self)
 
 // Whether rows of keys' values are asked for, pooled; of differences by themselves JSON and CSV
 // have every point.
-static bool asks_for_rows(const ld_study_view *view)
+static bool asks_for_rows(const shown *self)
 {
-    return view->over || view->statistic;
+    return self->view->over || self->statistic;
 }
 
 // Reads what the view asks for, and computes what all points want together.
@@ -404,7 +404,7 @@ static ld_status prepare(shown *self, ld_error *error)
         return status;
     }
     ld_status status = shown_choose(self, error);
-    if (!status && !view->against && !asks_for_rows(view))
+    if (!status && !view->against && !asks_for_rows(self))
         status = shown_compute(self, error);
     if (status || !view->against)
         return status;
@@ -450,7 +450,7 @@ static ld_status print_over(shown *self, ld_error *error)
     ld_status status = over_rows_open(self, &asked, error);
     if (!status)
         status = view->json ? show_over_json(self, &asked, error) : show_over(self, &asked, error);
-    if (!status && view->csv && asks_for_rows(view))
+    if (!status && view->csv && asks_for_rows(self))
         status = table_file_print(print_over_csv, &(over_csv){self, &asked}, view->csv, error);
     over_rows_close(&asked);
     return status;
@@ -459,7 +459,7 @@ static ld_status print_over(shown *self, ld_error *error)
 static ld_status print_differences(shown *self, ld_error *error)
 {
     const ld_study_view *view = self->view;
-    if (asks_for_rows(view))
+    if (asks_for_rows(self))
         return print_over(self, error);
     ld_status status = view->json ? show_json(self, error) : print_over(self, error);
     if (!status && view->json && self->pairs.compared == 0)
@@ -478,7 +478,7 @@ static ld_status print_all(shown *self, ld_error *error)
         return status;
     if (view->against && !view->measured)
         return print_differences(self, error);
-    if (asks_for_rows(view))
+    if (asks_for_rows(self))
         return print_over(self, error);
     return view->json ? show_json(self, error) : print_points(self, error);
 }
@@ -486,12 +486,19 @@ static ld_status print_all(shown *self, ld_error *error)
 ld_status ld_study_show(const char *folder, const ld_study_view *view, FILE *stream,
                         ld_error *error)
 {
+    return ld_study_show_statistic(folder, NULL, view, stream, error);
+}
+
+ld_status ld_study_show_statistic(const char *folder, const char *statistic,
+                                  const ld_study_view *view, FILE *stream, ld_error *error)
+{
     static const ld_study_view none = {0};
     study_data data;
     ld_status status = study_data_open(folder, &data, error);
     if (status)
         return status;
-    shown self = {.data = &data, .view = view ? view : &none, .stream = stream};
+    shown self = {
+        .data = &data, .view = view ? view : &none, .statistic = statistic, .stream = stream};
     locale_t before = numeric_locale_enter();
     status = print_all(&self, error);
     numeric_locale_leave(before);

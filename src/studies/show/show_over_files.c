@@ -124,7 +124,7 @@ ld_status show_over_json(const shown *self, over_asked *asked, ld_error *error)
     json_integer(&json, "format", 1);
     json_text(&json, "version", LD_VERSION);
     json_text(&json, "title", self->data->title ? self->data->title : "");
-    json_text(&json, "statistic", self->view->statistic ? self->view->statistic : "");
+    json_text(&json, "statistic", self->statistic ? self->statistic : "");
     over_pooled_text(&asked->of, text, sizeof text);
     json_text(&json, "pooled", text);
     if (asked->of.reference.data) {

@@ -92,7 +92,7 @@ ld_status shown_choose(shown *self, ld_error *error)
     }
     if (view->what)
         return shown_add(data, view->what, self->column, &self->count, error);
-    bool few = view->sensitivity || view->over || view->statistic || view->against;
+    bool few = view->sensitivity || view->over || self->statistic || view->against;
     ld_status status =
         shown_add_usual(data, few ? sensitive : usual, self->column, &self->count, error);
     if (!status)

@@ -13,6 +13,7 @@
 typedef struct shown {
     const study_data *data;
     const ld_study_view *view;
+    const char *statistic; // that is asked for; NULL: none
     FILE *stream;
     measured launches;           // beside which the study is shown, or none
     against reference;           // against which points are shown, or none
