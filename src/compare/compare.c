@@ -8,7 +8,7 @@
 #include "compare/further_runs.h"
 #include "compare/log_clock.h"
 #include "compare/measured_log.h"
-#include "compare/sensor_reading.h"
+#include "compare/sensor_samples.h"
 #include "compare/uncertainty.h"
 #include "math/functions.h"
 #include "results/manifest.h"
@@ -81,41 +81,11 @@ static ld_status place_log(ld_comparison *self, ld_error *error)
     return LD_OK;
 }
 
-// Bias of a sensor that has a window at rest: what the log reads there more than the run, which
-// before its start is as at its start.
-static ld_status find_bias(ld_comparison *self, sensor *of, ld_error *error)
-{
-    run_signal signal;
-    size_t count = 0;
-    double sum = 0;
-    ld_status status = isnan(of->rest[0]) ? LD_OK : sensor_signal(of, &self->run, &signal, error);
-    if (status || isnan(of->rest[0]))
-        return status;
-    of->bias = 0;
-    double *reading = self->nominal.reading;
-    status = sensor_read(of, &signal, self->log.rows, self->t, reading, error);
-    run_signal_free(&signal);
-    for (size_t i = 0; i < self->log.rows && !status; i++)
-        if (self->t[i] >= of->rest[0] && self->t[i] <= of->rest[1] && !isnan(of->value[i])) {
-            sum += of->value[i] - reading[i];
-            count++;
-        }
-    if (!status && count == 0)
-        status = ld_fail(error, LD_ERR_INPUT, "%.95s: no sample lies in rest, %g s to %g s",
-                         of->column, of->rest[0], of->rest[1]);
-    if (status)
-        return status;
-    of->bias = sum / (double)count;
-    double of_mean = of->noise / sqrt((double)count);
-    of->bias_uncertainty = hypot(of->bias_uncertainty, of_mean);
-    return LD_OK;
-}
-
 static ld_status find_biases(ld_comparison *self, ld_error *error)
 {
     ld_status status = LD_OK;
     for (int i = 0; i < self->log.sensors && !status; i++)
-        status = find_bias(self, &self->log.sensor[i], error);
+        status = sensor_find_bias(&self->log.sensor[i], &self->run, self->log.rows, self->t, error);
     return status;
 }
 
@@ -128,7 +98,7 @@ static ld_status find_clock(ld_comparison *self, ld_error *error)
     for (int i = 0; i < log->sensors && !status && log->clock.find; i++)
         if (strcmp(log->sensor[i].column, log->clock.find) == 0) {
             double given = log->sensor[i].bias_uncertainty;
-            status = find_bias(self, &log->sensor[i], error);
+            status = sensor_find_bias(&log->sensor[i], &self->run, log->rows, self->t, error);
             if (!status)
                 status = log_clock_find(log, &log->sensor[i], &self->run, error);
             log->sensor[i].bias_uncertainty = given;
@@ -140,32 +110,17 @@ static ld_status find_clock(ld_comparison *self, ld_error *error)
 // Which samples of a sensor are compared.
 static ld_status choose_samples(ld_comparison *self, int k, ld_error *error)
 {
-    const sensor *of = &self->log.sensor[k];
     ld_compared_series *series = &self->series[k];
-    char *compared = self->compared + (size_t)k * self->log.rows;
-    run_signal signal;
-    ld_status status = sensor_signal(of, &self->run, &signal, error);
+    sensor_samples found;
+    ld_status status =
+        sensor_choose_samples(&self->log.sensor[k], &self->run, self->log.rows, self->t,
+                              self->compared + (size_t)k * self->log.rows, &found, error);
     if (status)
         return status;
-    double first = fmax(signal.t[0], window_time(&self->run, of->from, -INFINITY));
-    double last = fmin(signal.t[signal.count - 1], window_time(&self->run, of->to, INFINITY));
-    run_signal_free(&signal);
-    size_t there = 0;
-    for (size_t i = 0; i < self->log.rows; i++) {
-        double value = of->value[i];
-        bool outside = self->t[i] < first || self->t[i] > last, gap = !outside && isnan(value);
-        bool saturated = !outside && (value <= of->range[0] || value >= of->range[1]);
-        series->outside += outside;
-        series->gaps += gap;
-        series->saturated += saturated;
-        there += !isnan(value);
-        compared[i] = !outside && !gap && !saturated;
-        series->count += (size_t)compared[i];
-    }
-    if (series->count == 0)
-        return ld_fail(error, LD_ERR_INPUT,
-                       "%.95s: none of its %zu samples lies between %g s and %g s within its range",
-                       of->column, there, first, last);
+    series->count = found.count;
+    series->outside = found.outside;
+    series->gaps = found.gaps;
+    series->saturated = found.saturated;
     return LD_OK;
 }
 
