@@ -336,6 +336,8 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_report_write_studies": (c_int, [_texts, c_size_t, _text, POINTER(ld_report), _error]),
     "ld_fit_create": (c_int, [_handle, POINTER(ld_fit_key), c_size_t, _texts, c_size_t, _handles,
                               _error]),
+    "ld_fit_add_logs": (c_int, [_handle, _texts, _texts, c_size_t, _error]),
+    "ld_fit_draw": (c_int, [_handle, _text, _error]),
     "ld_fit_run": (c_int, [_handle, POINTER(ld_fit_options), _error]),
     "ld_fit_print": (None, [_handle, c_void_p]),
     "ld_fit_print_json": (None, [_handle, c_void_p]),

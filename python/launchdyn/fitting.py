@@ -67,18 +67,25 @@ def _fit_of(pointer: int) -> Fit:
                document, printed(lambda stream: library.ld_fit_print(pointer, stream)))
 
 
+def _paths(files: Union[PathLike, Sequence[PathLike]]) -> list[str]:
+    alone = isinstance(files, (str, os.PathLike))
+    return [os.fspath(path) for path in ([files] if alone else files)]  # type: ignore[list-item]
+
+
 def fit(scenario: Scenario, files: Union[PathLike, Sequence[PathLike]],
         over: Mapping[str, tuple[Any, Any]],
         prior: Optional[Mapping[str, tuple[Any, Any]]] = None,
         folder: Optional[PathLike] = None, threads: int = 1, starts: int = 4,
-        seed: int = 0) -> Fit:
-    """Fits keys to measured launches, CSV files with a line a launch.
+        seed: int = 0, logs: Union[PathLike, Sequence[PathLike]] = (),
+        sensors: Union[PathLike, Sequence[PathLike], None] = None,
+        plot: Optional[PathLike] = None) -> Fit:
+    """Fits keys to measured launches, CSV files with a line a launch, and to logs.
 
-    `over` has bounds by path, {"rocket.lock.release_force": ("2 kN", "10 kN")}; `prior` mean and
-    standard deviation; bare numbers are in SI. With a folder, Ctrl-C keeps what was computed: the
-    same call continues, and fitted.yaml is written there.
+    `over` has bounds by path, {"rocket.lock.release_force": ("2 kN", "10 kN")}; `prior` mean
+    and standard deviation; bare numbers are in SI. `sensors` describe the logs, in their order,
+    in place of the files beside them; `plot` names a picture to draw. With a folder, Ctrl-C
+    keeps what was computed: the same call continues, and fitted.yaml is written there.
     """
-    paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     unknown = set(prior or {}) - set(over)
     if unknown:
         raise ValueError(f"prior of a key that is not fitted: {sorted(unknown)[0]}")
@@ -90,10 +97,16 @@ def fit(scenario: Scenario, files: Union[PathLike, Sequence[PathLike]],
         if prior and path in prior:
             wish.mean, wish.deviation = (coded(value_text(path, part)) for part in prior[path])
     error, pointer = ld_error(), ctypes.c_void_p()
-    names = texts([os.fspath(path) for path in paths])
+    names, series = texts(_paths(files)), texts(_paths(logs))
+    described = None if sensors is None else texts(_paths(sensors))
+    if described is not None and len(described) != len(series):
+        raise ValueError("expected as many descriptions of sensors as logs")
     check(library.ld_fit_create(scenario.handle.pointer, wishes, len(over), names, len(names),
                                 ctypes.byref(pointer), ctypes.byref(error)), error)
     handle = Handle(pointer.value, library.ld_fit_free, scenario.handle)
+    if len(series) > 0:
+        check(library.ld_fit_add_logs(handle.pointer, series, described, len(series),
+                                      ctypes.byref(error)), error)
     with Interrupt() as interrupt:
         options = ld_fit_options(folder=None if folder is None else coded_path(folder),
                                  threads=threads, starts=starts, seed=seed,
@@ -101,4 +114,6 @@ def fit(scenario: Scenario, files: Union[PathLike, Sequence[PathLike]],
         status = library.ld_fit_run(handle.pointer, ctypes.byref(options), ctypes.byref(error))
         if not interrupt.asked:
             check(status, error)
+    if plot is not None and not interrupt.asked:
+        check(library.ld_fit_draw(handle.pointer, coded_path(plot), ctypes.byref(error)), error)
     return _fit_of(handle.pointer)

@@ -8,14 +8,14 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 
-enum { MOST_KEYS = 32 };
+enum { MOST_KEYS = 32, MOST_LOGS = 16 };
 
 typedef struct fit_wishes {
-    char **sets, **over, **priors;
-    char *folder;
+    char **sets, **over, **priors, **logs, **sensors;
+    char *folder, *picture;
     int threads, starts, seed, json, strict;
     const char *const *files;
-    size_t file_count, key_count;
+    size_t file_count, key_count, log_count;
     ld_fit_key key[MOST_KEYS];
 } fit_wishes;
 
@@ -85,6 +85,14 @@ static bool read_keys(fit_wishes *wishes)
     return good && wishes->key_count > 0;
 }
 
+static size_t count_texts(char *const *texts)
+{
+    size_t count = 0;
+    while (texts && texts[count])
+        count++;
+    return count;
+}
+
 // What keeps the numbers from being possible; NULL: nothing.
 static const char *wrong_number(const fit_wishes *wishes)
 {
@@ -93,6 +101,10 @@ static const char *wrong_number(const fit_wishes *wishes)
         return "--jobs: expected a number from 1 to 1024";
     if (wishes->starts < 1 || wishes->starts > MOST_STARTS)
         return "--starts: expected a number from 1 to 1000";
+    if (wishes->log_count > MOST_LOGS)
+        return "--log: expected at most 16 logs";
+    if (count_texts(wishes->sensors) > wishes->log_count)
+        return "--sensors: expected a --log for each";
     return NULL;
 }
 
@@ -117,7 +129,22 @@ static int run_fit(ld_fit *fit, const fit_wishes *wishes)
         ld_fit_print_json(fit, stdout);
     else
         ld_fit_print(fit, command_text());
-    return 0;
+    if (wishes->picture) {
+        status = ld_fit_draw(fit, wishes->picture, &error);
+        command_step("drew %s", wishes->picture);
+    }
+    return status ? command_fail(status, &error) : 0;
+}
+
+// Descriptions are those of the first logs.
+static ld_status add_logs(ld_fit *fit, const fit_wishes *wishes, ld_error *error)
+{
+    const char *sensors[MOST_LOGS] = {NULL}, *logs[MOST_LOGS] = {NULL};
+    for (size_t i = 0; i < wishes->log_count; i++)
+        logs[i] = wishes->logs[i];
+    for (size_t i = 0; i < count_texts(wishes->sensors); i++)
+        sensors[i] = wishes->sensors[i];
+    return ld_fit_add_logs(fit, logs, sensors, wishes->log_count, error);
 }
 
 static int fit_model(const ld_model *model, void *data)
@@ -130,9 +157,9 @@ static int fit_model(const ld_model *model, void *data)
         return code;
     ld_status status = ld_fit_create(model, wishes->key, wishes->key_count, wishes->files,
                                      wishes->file_count, &fit, &error);
-    if (status)
-        return command_fail(status, &error);
-    code = run_fit(fit, wishes);
+    if (!status && wishes->log_count > 0)
+        status = add_logs(fit, wishes, &error);
+    code = status ? command_fail(status, &error) : run_fit(fit, wishes);
     ld_fit_free(fit);
     return code;
 }
@@ -146,6 +173,10 @@ int command_fit(const command *self, int argc, char **argv)
         {"prior", '\0', OPTION_TEXTS, &wishes.priors,
          "What is known of a fitted key beforehand: mean and standard deviation (can be repeated)",
          "KEY=MEAN+-DEV"},
+        {"log", '\0', OPTION_TEXTS, &wishes.logs,
+         "Fit to the series of this log, too (can be repeated)", "LOG.csv"},
+        {"sensors", '\0', OPTION_TEXTS, &wishes.sensors,
+         "What that log's sensors are (LOG.yaml beside LOG.csv; can be repeated)", "FILE"},
         COMMAND_SETS(&wishes.sets),
         COMMAND_STRICT(&wishes.strict),
         {"out", 'o', OPTION_TEXT, &wishes.folder,
@@ -155,6 +186,9 @@ int command_fit(const command *self, int argc, char **argv)
         {"starts", '\0', OPTION_INTEGER, &wishes.starts,
          "Number of starts: the scenario's values, then random ones (4)", "N"},
         {"seed", '\0', OPTION_INTEGER, &wishes.seed, "Seed of the random starts (0)", "N"},
+        {"plot", '\0', OPTION_TEXT, &wishes.picture,
+         "Draw measured and fitted values and the intervals: FILE.svg, FILE.pdf or FILE.png",
+         "FILE"},
         {"json", '\0', OPTION_FLAG, &wishes.json, "Print as JSON, in full precision", NULL},
         COMMAND_USUAL};
     command_line line;
@@ -162,9 +196,10 @@ int command_fit(const command *self, int argc, char **argv)
     if (!command_line_read(&line, self, argc, argv, options, &code))
         return code;
     wishes.files = line.word + 1;
-    wishes.file_count = line.count - 1;
+    wishes.log_count = count_texts(wishes.logs);
+    wishes.file_count = line.count > 0 ? line.count - 1 : 0;
     code = EXIT_INPUT;
-    if (line.count < 2)
+    if (line.count < 1 || wishes.file_count + wishes.log_count == 0)
         command_complain("fit requires %s; see launchdyn fit --help", self->arguments);
     else if (wrong_number(&wishes))
         command_complain("%s", wrong_number(&wishes));

@@ -60,14 +60,16 @@ static const command commands[] = {
      .run = command_study,
      .in_child = true},
     {.name = "fit",
-     .arguments = "FILE DATA...",
+     .arguments = "FILE [DATA...]",
      .words = COMMAND_WORDS,
      .summary = "Fit keys of a scenario to measured launches",
      .about = "Finds the values of keys, between bounds, at which the scenario's launch has the "
               "results that were measured: weighted least squares from several starts, with "
               "covariance, 95 % profile-likelihood intervals and the combinations of keys that "
               "the data do not tell. DATA are CSV files with a line a launch and columns by the "
-              "names of results, with units; NAME_u is the standard uncertainty of NAME. Ctrl-C "
+              "names of results, with units; NAME_u is the standard uncertainty of NAME. --log "
+              "adds series, "
+              "as of launchdyn compare. Ctrl-C "
               "stops; the same command with the same --out continues.",
      .examples =
          "launchdyn fit scenario.yaml launches.csv --over rocket.mass=50..70 -o fit|Fit one "

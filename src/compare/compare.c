@@ -111,10 +111,9 @@ static ld_status find_clock(ld_comparison *self, ld_error *error)
 static ld_status choose_samples(ld_comparison *self, int k, ld_error *error)
 {
     ld_compared_series *series = &self->series[k];
-    sensor_samples found;
-    ld_status status =
-        sensor_choose_samples(&self->log.sensor[k], &self->run, self->log.rows, self->t,
-                              self->compared + (size_t)k * self->log.rows, &found, error);
+    sensor_samples found = {.chosen = self->compared + (size_t)k * self->log.rows};
+    ld_status status = sensor_choose_samples(&self->log.sensor[k], &self->run, self->log.rows,
+                                             self->t, &found, error);
     if (status)
         return status;
     series->count = found.count;

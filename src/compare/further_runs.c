@@ -56,26 +56,18 @@ ld_status further_runs_gravity(const char *folder, double *gravity, ld_error *er
     return LD_OK;
 }
 
-// What is run, and who takes it.
-typedef struct one_run {
-    const ld_model *model;
-    ld_run_options options;
-    int rocket;
-    run_taker *take;
-    void *data;
-} one_run;
-
-static ld_status run_model(one_run *self, ld_error *error)
+ld_status series_run_make(const series_run *self, ld_error *error)
 {
     ld_simulation *simulation = NULL;
+    ld_run_options options = self->options;
     ld_summary *summary = ld_summary_new();
     ld_history *history = ld_history_new(NULL);
     ld_status status = summary && history
                            ? ld_simulation_create(self->model, &simulation, error)
                            : ld_fail(error, LD_ERR_MEMORY, "no memory for a further run");
     if (!status) {
-        self->options.sink = ld_history_sink(history);
-        status = ld_simulation_run(simulation, &self->options, summary, error);
+        options.sink = ld_history_sink(history);
+        status = ld_simulation_run(simulation, &options, summary, error);
     }
     run_series series = {.launch = {0}};
     if (!status)
@@ -91,15 +83,15 @@ static ld_status run_model(one_run *self, ld_error *error)
 }
 
 // Sample `number` of its model; 0: the model itself.
-static ld_status run_sample(one_run *self, int number, ld_error *error)
+static ld_status run_sample(series_run *self, int number, ld_error *error)
 {
     ld_sample *sample = NULL;
     if (number == 0)
-        return run_model(self, error);
+        return series_run_make(self, error);
     ld_status status = ld_sample_create(self->model, number, &sample, error);
     if (!status) {
         self->model = ld_sample_model(sample);
-        status = run_model(self, error);
+        status = series_run_make(self, error);
     }
     ld_sample_free(sample);
     return status;
@@ -110,7 +102,7 @@ ld_status further_run(const further_runs *self, const run_overrides *overrides, 
 {
     ld_model *derived = NULL;
     ld_messages messages;
-    one_run run = {self->model, self->options, rocket, take, data};
+    series_run run = {self->model, self->options, rocket, take, data};
     if (!overrides)
         return run_sample(&run, self->origin.sample, error);
     ld_status status =
@@ -131,6 +123,6 @@ ld_status further_run_sample(const further_runs *self, int number, int rocket, r
     if (number > runs)
         return ld_fail(error, LD_ERR_INPUT,
                        "samples: the scenario of the run has %" PRId64 " (scatter.samples)", runs);
-    one_run run = {self->model, self->options, rocket, take, data};
+    series_run run = {self->model, self->options, rocket, take, data};
     return run_sample(&run, number, error);
 }

@@ -17,6 +17,18 @@ typedef struct further_runs {
 typedef ld_status run_taker(void *self, const run_series *run, const ld_summary *summary,
                             ld_error *error);
 
+// A run of a model in memory, handed to `take`.
+typedef struct series_run {
+    const ld_model *model;
+    ld_run_options options; // but for its sink
+    int rocket;
+    run_taker *take;
+    void *data;
+} series_run;
+
+// @return what the run or `take` returns
+ld_status series_run_make(const series_run *self, ld_error *error);
+
 // `options` hold for each run, but for its sink.
 // @return LD_OK, LD_ERR_INPUT (the folder does not keep what its run was made of), LD_ERR_MEMORY
 ld_status further_runs_open(further_runs *self, const char *folder, const ld_run_options *options,

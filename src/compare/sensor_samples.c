@@ -53,8 +53,7 @@ ld_status sensor_find_bias(sensor *self, const run_series *run, size_t rows, con
 }
 
 ld_status sensor_choose_samples(const sensor *self, const run_series *run, size_t rows,
-                                const double *t, char *chosen, sensor_samples *found,
-                                ld_error *error)
+                                const double *t, sensor_samples *found, ld_error *error)
 {
     run_signal signal;
     ld_status status = sensor_signal(self, run, &signal, error);
@@ -64,7 +63,7 @@ ld_status sensor_choose_samples(const sensor *self, const run_series *run, size_
     double last = fmin(signal.t[signal.count - 1], window_time(run, self->to, INFINITY));
     run_signal_free(&signal);
     size_t there = 0;
-    *found = (sensor_samples){0};
+    *found = (sensor_samples){.chosen = found->chosen};
     for (size_t i = 0; i < rows; i++) {
         double value = self->value[i];
         bool outside = t[i] < first || t[i] > last, gap = !outside && isnan(value);
@@ -73,8 +72,8 @@ ld_status sensor_choose_samples(const sensor *self, const run_series *run, size_
         found->gaps += gap;
         found->saturated += saturated;
         there += !isnan(value);
-        chosen[i] = !outside && !gap && !saturated;
-        found->count += (size_t)chosen[i];
+        found->chosen[i] = !outside && !gap && !saturated;
+        found->count += (size_t)found->chosen[i];
     }
     if (found->count == 0)
         return ld_fail(error, LD_ERR_INPUT,

@@ -13,14 +13,13 @@ ld_status sensor_find_bias(sensor *self, const run_series *run, size_t rows, con
                            ld_error *error);
 
 typedef struct sensor_samples {
+    char *chosen; // [rows] the caller's; 1: counts
     size_t count, outside, gaps, saturated;
 } sensor_samples;
 
 // Marks the samples in the sensor's window of the run, and counts the others by what they are.
-// @param chosen [rows] 1: counts
 // @return LD_OK, LD_ERR_INPUT (none), LD_ERR_MEMORY
 ld_status sensor_choose_samples(const sensor *self, const run_series *run, size_t rows,
-                                const double *t, char *chosen, sensor_samples *found,
-                                ld_error *error);
+                                const double *t, sensor_samples *found, ld_error *error);
 
 #endif

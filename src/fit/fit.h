@@ -3,16 +3,22 @@
 #define LD_FIT_H
 
 #include "fit/fit_data.h"
+#include "fit/fit_log.h"
 #include "fit/minimum.h"
 #include "launchdyn/fit.h"
 
+enum { FIT_KEY_NAME = LD_MAX_PATH };
+
+// A key of the scenario, or after those what is not known of a log's clock or sensor.
 typedef struct fit_key {
-    field_place place;
+    char name[FIT_KEY_NAME];
+    field_place place;   // of a key of the scenario
     const char *unit;    // SI
     char shown_unit[32]; // as its bounds were given, and the factor from that to SI
     double shown_factor;
     double low, width;      // SI
     double mean, deviation; // SI; deviation infinite: no prior
+    double start;           // SI; of a key of the scenario its value there
 } fit_key;
 
 // What a fit says of a key, in SI.
@@ -35,12 +41,17 @@ typedef struct fit_quality {
 
 struct ld_fit {
     const ld_model *model;
-    int keys;
+    int keys, own_keys; // own: of the scenario, which come first
     fit_key key[FIT_MOST_KEYS];
     fit_data data;
+    int logs, log_launch; // launch of the data that the logs are of
+    fit_log log[FIT_MOST_LOGS];
     fit_minimum minimum;
-    int64_t simulated;                  // launches
+    bool weighed_again; // for correlated residuals of series: chi2 of starts is of before
+    bool rough;         // profiles found lower minima to the end: intervals are by deviations
+    int64_t simulated;  // launches
     double inflation, inflated_freedom; // of the covariance, of Student's t; infinite: normal
+    double level;                       // rise of chi2 at the ends of intervals
     fit_estimate estimate[FIT_MOST_KEYS];
     fit_quality quality;
     double *fitted; // [residuals] simulated results at the best fit, SI

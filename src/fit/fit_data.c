@@ -458,6 +458,8 @@ ld_status fit_data_read(const ld_model *model, const char *const *files, size_t 
                         fit_data *data, ld_error *error)
 {
     *data = (fit_data){.model = model, .things = quantity_things_of(model)};
+    if (count == 0)
+        return LD_OK;
     row_reader *self = calloc(1, sizeof *self);
     if (!self)
         return no_memory(error);
@@ -475,4 +477,28 @@ void fit_data_free(fit_data *data)
         free(data->launch[i].root);
     free(data->launch);
     *data = (fit_data){0};
+}
+
+ld_status fit_data_own_launch(fit_data *data, int *number, ld_error *error)
+{
+    fit_launch own = {.first = data->residuals};
+    size_t k = 0;
+    for (int i = 0; i < data->settings; i++)
+        own.setting[i] = field_get(data->model, &data->setting[i]);
+    while (k < data->launches && memcmp(data->launch[k].setting, own.setting,
+                                        (size_t)data->settings * sizeof *own.setting) != 0)
+        k++;
+    *number = (int)k;
+    if (k < data->launches)
+        return LD_OK;
+    fit_launch *larger = realloc(data->launch, (k + 1) * sizeof *larger);
+    own.root = calloc(1, sizeof *own.root);
+    if (larger)
+        data->launch = larger;
+    if (!larger || !own.root) {
+        free(own.root);
+        return no_memory(error);
+    }
+    data->launch[data->launches++] = own;
+    return LD_OK;
 }

@@ -39,7 +39,7 @@ typedef struct fit_data {
     field_place setting[FIT_MOST_SETTINGS]; // keys of the scenario that columns set
     size_t rows, launches;
     fit_launch *launch; // [launches] in the order of the first of each
-    int residuals;      // cells of all
+    int residuals;      // cells of all, and samples and results of logs
     int estimated;      // results whose uncertainty is estimated, together with its correlations
     int freedom;        // of the estimate: launches beyond one of each setting
 } fit_data;
@@ -51,5 +51,9 @@ typedef struct fit_data {
 ld_status fit_data_read(const ld_model *model, const char *const *files, size_t count,
                         fit_data *data, ld_error *error);
 void fit_data_free(fit_data *data);
+
+// The number of the launch under the scenario's own values, which is added where there is none.
+// @return LD_OK, LD_ERR_MEMORY
+ld_status fit_data_own_launch(fit_data *data, int *number, ld_error *error);
 
 #endif

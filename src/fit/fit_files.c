@@ -16,7 +16,7 @@ static void write_key(json_writer *json, const ld_fit *fit, int i)
     const fit_key *key = &fit->key[i];
     const fit_estimate *found = &fit->estimate[i];
     json_open(json, NULL, '{');
-    json_text(json, "path", key->place.path);
+    json_text(json, "path", key->name);
     json_text(json, "unit", key->unit);
     json_number(json, "value", found->value);
     json_number(json, "deviation", found->deviation);
@@ -112,6 +112,49 @@ static void write_launch(json_writer *json, const ld_fit *fit, const fit_launch 
     json_close(json, '}');
 }
 
+static void write_series(json_writer *json, const ld_fit *fit, const fit_log *log, int k)
+{
+    const fit_series *series = &log->series[k];
+    json_open(json, NULL, '{');
+    json_text(json, "name", log->log.sensor[k].column);
+    json_text(json, "unit", log->log.sensor[k].si);
+    json_number(json, "noise", series->noise);
+    json_number(json, "correlation", series->correlation);
+    json_open(json, "rows", '[');
+    for (size_t i = 0; i < series->count; i++) {
+        json_open(json, NULL, '[');
+        json_number(json, NULL, series->t[i] + fit_log_offset(fit, log));
+        json_number(json, NULL, series->value[i]);
+        json_number(json, NULL, fit->fitted[(size_t)series->first + i]);
+        json_close(json, ']');
+    }
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
+static void write_log(json_writer *json, const ld_fit *fit, const fit_log *log)
+{
+    json_open(json, NULL, '{');
+    json_text(json, "file", log->file);
+    json_number(json, "offset", fit_log_offset(fit, log));
+    json_open(json, "series", '[');
+    for (int k = 0; k < log->log.sensors; k++)
+        write_series(json, fit, log, k);
+    json_close(json, ']');
+    json_open(json, "results", '[');
+    for (int i = 0; i < log->scalars; i++) {
+        const fit_scalar *scalar = &log->scalar[i];
+        json_open(json, NULL, '{');
+        json_text(json, "name", scalar->name);
+        json_number(json, "measured", scalar->measured);
+        json_number(json, "uncertainty", scalar->uncertainty);
+        json_number(json, "fitted", fit->fitted[scalar->residual]);
+        json_close(json, '}');
+    }
+    json_close(json, ']');
+    json_close(json, '}');
+}
+
 void ld_fit_print_json(const ld_fit *fit, FILE *stream)
 {
     enum { FORMAT = 1 };
@@ -123,6 +166,7 @@ void ld_fit_print_json(const ld_fit *fit, FILE *stream)
     json_text(&json, "version", LD_VERSION);
     json_integer(&json, "simulated", fit->simulated);
     write_quality(&json, fit);
+    json_truth(&json, "profiled", !fit->rough);
     json_open(&json, "keys", '[');
     for (int i = 0; i < fit->keys; i++)
         write_key(&json, fit, i);
@@ -137,6 +181,10 @@ void ld_fit_print_json(const ld_fit *fit, FILE *stream)
     for (size_t i = 0; i < fit->data.launches; i++)
         write_launch(&json, fit, &fit->data.launch[i]);
     json_close(&json, ']');
+    json_open(&json, "logs", '[');
+    for (int i = 0; i < fit->logs; i++)
+        write_log(&json, fit, &fit->log[i]);
+    json_close(&json, ']');
     json_close(&json, '}');
     fputs("\n", stream);
 }
@@ -146,10 +194,10 @@ void ld_fit_print_json(const ld_fit *fit, FILE *stream)
 static bool write_fitted(const ld_fit *fit, const char *folder, FILE *stream)
 {
     found_key key[FIT_MOST_KEYS];
-    for (int i = 0; i < fit->keys; i++)
+    for (int i = 0; i < fit->own_keys; i++)
         key[i] = (found_key){&fit->key[i].place, fit->key[i].unit, fit->estimate[i].value};
     const found_scenario found = {
-        .model = fit->model, .how = "fitted values (launchdyn fit)", .keys = fit->keys, .key = key};
+        .model = fit->model, .how = "fitted values (launchdyn fit)", .keys = fit->own_keys, .key = key};
     return found_scenario_write(&found, folder, stream);
 }
 

@@ -35,7 +35,7 @@ static ld_status make_model(const ld_fit *fit, const fit_launch *launch, const d
     model_forget(model); // it follows from what is set
     for (int i = 0; i < fit->data.settings; i++)
         field_set(model, &fit->data.setting[i], launch->setting[i]);
-    for (int i = 0; i < fit->keys; i++)
+    for (int i = 0; i < fit->own_keys; i++)
         field_set(model, &fit->key[i].place, fit_key_value(&fit->key[i], p[i]));
     model_complete(model);
     return model_check_drawn(model, error);
@@ -62,28 +62,73 @@ static ld_status weigh(const ld_fit *fit, const fit_launch *launch, const ld_sum
     return LD_OK;
 }
 
+static bool has_logs(const ld_fit *fit, const fit_launch *launch)
+{
+    return fit->logs > 0 && launch == &fit->data.launch[fit->log_launch];
+}
+
+// The series of the launch run last.
+static ld_status take_series(const ld_fit *fit, fit_worker *worker, ld_error *error)
+{
+    run_series series;
+    ld_status status = run_series_of_run(&series, worker->history, worker->summary, 1, error);
+    series.gravity = model_gravity(worker->model);
+    for (int i = 0; i < fit->logs && !status; i++) {
+        fit_log_run_free(&worker->log[i]);
+        status = fit_log_take(&fit->log[i], &series, &worker->log[i], error);
+    }
+    run_series_free(&series);
+    return status;
+}
+
+// Runs a launch with the scenario's keys at p.
 static ld_status simulate(const fit_launches *self, fit_worker *worker, const fit_launch *launch,
-                          const double *p, double *residual, ld_error *error)
+                          const double *p, ld_error *error)
 {
     ld_fit_options asked = *self->options;
-    const ld_run_options options = {.self = &asked, .progress = may_continue};
+    bool logged = has_logs(self->fit, launch);
+    const ld_run_options options = {.self = &asked,
+                                    .progress = may_continue,
+                                    .sink = logged ? ld_history_sink(worker->history) : NULL};
     ld_status status = make_model(self->fit, launch, p, worker->model, error);
     if (!status)
         status = simulation_renew(&worker->simulation, worker->model, error);
     if (!status)
         status = ld_simulation_run(worker->simulation, &options, worker->summary, error);
-    return status ? status : weigh(self->fit, launch, worker->summary, residual, error);
+    return status || !logged ? status : take_series(self->fit, worker, error);
+}
+
+// Residuals of the launch run last, with all keys at p, into residual[all].
+static ld_status weigh_all(const ld_fit *fit, const fit_worker *worker, const fit_launch *launch,
+                           const double *p, double *residual, ld_error *error)
+{
+    double key[FIT_MOST_KEYS];
+    ld_status status = weigh(fit, launch, worker->summary, &residual[launch->first], error);
+    for (int i = 0; i < fit->keys; i++)
+        key[i] = fit_key_value(&fit->key[i], p[i]);
+    for (int i = 0; i < fit->logs && has_logs(fit, launch) && !status; i++) {
+        const fit_log *log = &fit->log[i];
+        status = fit_log_weigh_series(log, &worker->log[i], key, residual, error);
+        if (!status)
+            status =
+                fit_log_weigh_scalars(log, worker->summary, &fit->data.things, residual, error);
+    }
+    return status;
 }
 
 // ---- side by side
 
-// A batch: every launch at each point; task k is launch k % launches at point k / launches.
+// A batch: every launch at each point. Points that differ in keys of logs alone share the launches
+// of the first of them, their leader; task k is launch k % launches of the leader k / launches.
 typedef struct batch {
     fit_launches *self;
-    int count;
+    int count, known; // points; those before `known` are
     const double *points;
     double *residuals;
     bool *there;
+    int *leader;  // [count] number of a point
+    int *leading; // [leaders] points that lead those to be computed
+    int leaders;
     atomic_int next, worker;
     atomic_bool stopped;
     pthread_mutex_t at_work;
@@ -92,49 +137,70 @@ typedef struct batch {
     ld_error *error;
 } batch;
 
-static void take_outcome(batch *self, int task, ld_status status, const ld_error *error)
+// Takes the outcome of a launch at a point.
+static void take_outcome(batch *self, int task, int point, ld_status status, const ld_error *error)
 {
     fit_launches *all = self->self;
     pthread_mutex_lock(&self->at_work);
-    all->counts.launches++;
     if (status == LD_ERR_INTERRUPTED || status == LD_ERR_MEMORY) {
         self->status = status;
         *self->error = *error;
         self->stopped = true;
     } else if (status) {
-        self->there[task / (int)all->fit->data.launches] = false;
+        self->there[point] = false;
         if (task < self->first_failed)
             snprintf(all->reason, sizeof all->reason, "%s", error->text);
         self->first_failed = task < self->first_failed ? task : self->first_failed;
     }
+    pthread_mutex_unlock(&self->at_work);
+}
+
+static void count_launch(batch *self, bool again)
+{
+    fit_launches *all = self->self;
+    pthread_mutex_lock(&self->at_work);
+    all->counts.launches += !again;
     if (all->options->progress)
         all->options->progress(all->options->self, &all->counts);
     pthread_mutex_unlock(&self->at_work);
+}
+
+// One launch, and its residuals at each of its leader's points that are not known.
+static void compute_task(batch *self, fit_worker *worker, int task)
+{
+    const fit_launches *all = self->self;
+    const ld_fit *fit = all->fit;
+    const int launches = (int)fit->data.launches, first = self->leading[task / launches];
+    const fit_launch *launch = &fit->data.launch[task % launches];
+    ld_error error;
+    ld_status ran = simulate(all, worker, launch, &self->points[first * fit->keys], &error);
+    count_launch(self, first < self->known);
+    for (int i = first < self->known ? self->known : first; i < self->count; i++) {
+        ld_status status = ran;
+        if (self->leader[i] != first)
+            continue;
+        if (!status)
+            status = weigh_all(fit, worker, launch, &self->points[i * fit->keys],
+                               &self->residuals[i * fit->data.residuals], &error);
+        take_outcome(self, task, i, status, &error);
+    }
 }
 
 static void *work(void *user)
 {
     batch *self = user;
     const fit_launches *all = self->self;
-    const ld_fit *fit = all->fit;
-    int launches = (int)fit->data.launches, task;
+    int tasks = self->leaders * (int)all->fit->data.launches, task;
     fit_worker *worker = &all->worker[self->worker++];
-    while (!self->stopped && (task = self->next++) < self->count * launches) {
-        ld_error error;
-        int point = task / launches;
-        const fit_launch *launch = &fit->data.launch[task % launches];
-        double *residual = &self->residuals[point * fit->data.residuals + launch->first];
-        ld_status status =
-            simulate(all, worker, launch, &self->points[point * fit->keys], residual, &error);
-        take_outcome(self, task, status, &error);
-    }
+    while (!self->stopped && (task = self->next++) < tasks)
+        compute_task(self, worker, task);
     return NULL;
 }
 
 static ld_status work_side_by_side(batch *self)
 {
     fit_launches *all = self->self;
-    int tasks = self->count * (int)all->fit->data.launches, started = 0, problem = 0;
+    int tasks = self->leaders * (int)all->fit->data.launches, started = 0, problem = 0;
     int others = (all->threads < tasks ? all->threads : tasks) - 1;
     pthread_t *thread = calloc((size_t)(others > 0 ? others : 0) + 1, sizeof *thread);
     if (!thread)
@@ -155,20 +221,43 @@ static ld_status work_side_by_side(batch *self)
     return self->status;
 }
 
-static ld_status compute(fit_launches *self, int count, const double *points, double *residuals,
-                         bool *there, ld_error *error)
+// Finds who leads whom; returns how many launches' worth of points the known ones are.
+static int find_leaders(batch *self)
 {
-    batch all = {.self = self,
-                 .count = count,
-                 .points = points,
-                 .residuals = residuals,
-                 .there = there,
-                 .first_failed = self->reason[0] ? -1 : count * (int)self->fit->data.launches,
-                 .error = error,
-                 .at_work = PTHREAD_MUTEX_INITIALIZER};
-    for (int i = 0; i < count; i++)
-        there[i] = true;
-    return work_side_by_side(&all);
+    const ld_fit *fit = self->self->fit;
+    size_t size = (size_t)fit->own_keys * sizeof *self->points;
+    int known = 0;
+    for (int i = 0; i < self->count; i++) {
+        int first = 0;
+        while (memcmp(&self->points[first * fit->keys], &self->points[i * fit->keys], size) != 0)
+            first++;
+        self->leader[i] = first;
+        known += first == i && i < self->known;
+        bool led = false;
+        for (int k = 0; k < self->leaders && !led; k++)
+            led = self->leading[k] == first;
+        if (i >= self->known && !led)
+            self->leading[self->leaders++] = first;
+    }
+    return known;
+}
+
+// Computes the points that are not known.
+static ld_status compute(batch *self)
+{
+    fit_launches *all = self->self;
+    const int launches = (int)all->fit->data.launches;
+    self->leader = calloc(2 * (size_t)self->count, sizeof *self->leader);
+    if (!self->leader)
+        return no_memory(self->error);
+    self->leading = self->leader + self->count;
+    all->counts.launches += (int64_t)find_leaders(self) * launches;
+    self->first_failed = all->reason[0] ? -1 : self->leaders * launches;
+    for (int i = self->known; i < self->count; i++)
+        self->there[i] = true;
+    ld_status status = self->leaders > 0 ? work_side_by_side(self) : LD_OK;
+    free(self->leader);
+    return status;
 }
 
 ld_status fit_launches_evaluate(void *user, int count, const double *points, double *residuals,
@@ -179,15 +268,19 @@ ld_status fit_launches_evaluate(void *user, int count, const double *points, dou
     while (known < count && search_state_next(&self->state, &points[known * keys],
                                               &residuals[known * rows], &there[known]))
         known++;
-    self->counts.launches += known * (int64_t)self->fit->data.launches;
-    if (known == count)
-        return LD_OK;
-    ld_status status = compute(self, count - known, &points[known * keys], &residuals[known * rows],
-                               &there[known], error);
+    batch all = {.self = self,
+                 .count = count,
+                 .known = known,
+                 .points = points,
+                 .residuals = residuals,
+                 .there = there,
+                 .error = error,
+                 .at_work = PTHREAD_MUTEX_INITIALIZER};
+    ld_status status = compute(&all);
     for (int i = known; i < count && !status; i++)
         status = search_state_put(&self->state, &points[i * keys], &residuals[i * rows], there[i],
                                   error);
-    return status ? status : search_state_flush(&self->state, error);
+    return status || known == count ? status : search_state_flush(&self->state, error);
 }
 
 void fit_launches_stage(void *user, const char *text, double chi2)
@@ -215,6 +308,35 @@ static void write_data(const fit_data *data, FILE *stream)
     }
 }
 
+static void write_window(const window_end *end, FILE *stream)
+{
+    fprintf(stream, " %d %a", end->kind, end->t);
+}
+
+static void write_log(const fit_log *log, FILE *stream)
+{
+    const log_clock *clock = &log->log.clock;
+    fprintf(stream, "clock %a %a %a", clock->offset, log->given_offset, clock->within);
+    write_window(&clock->from, stream);
+    write_window(&clock->to, stream);
+    for (int k = 0; k < log->log.sensors; k++) {
+        const sensor *of = &log->log.sensor[k];
+        const fit_series *series = &log->series[k];
+        fprintf(stream, "\n%s %d %s %s %d", of->column, of->kind, of->of, of->on ? of->on : "",
+                of->order);
+        for (int i = 0; i < 3; i++)
+            fprintf(stream, " %a %a", of->at[i], of->axis[i]);
+        fprintf(stream, " %a %a %a %a %a %a", of->cutoff, of->delay, of->scale, of->bias,
+                of->range[0], of->range[1]);
+        fprintf(stream, " %a\n", series->noise);
+        for (size_t i = 0; i < series->count; i++)
+            fprintf(stream, "%a %a\n", series->t[i], series->value[i]);
+    }
+    for (int i = 0; i < log->scalars; i++)
+        fprintf(stream, "%s %a %a\n", log->scalar[i].name, log->scalar[i].measured,
+                log->scalar[i].uncertainty);
+}
+
 // What the fit is of, as text; NULL: no memory.
 static char *identity_of(const ld_fit *fit, const ld_fit_options *options)
 {
@@ -225,10 +347,12 @@ static char *identity_of(const ld_fit *fit, const ld_fit_options *options)
         return NULL;
     ld_model_print(fit->model, stream);
     for (int i = 0; i < fit->keys; i++)
-        fprintf(stream, "%s %a %a %a %a\n", fit->key[i].place.path, fit->key[i].low,
-                fit->key[i].width, fit->key[i].mean, fit->key[i].deviation);
+        fprintf(stream, "%s %a %a %a %a\n", fit->key[i].name, fit->key[i].low, fit->key[i].width,
+                fit->key[i].mean, fit->key[i].deviation);
     fprintf(stream, "%d %lld\n", options->starts, (long long)options->seed);
     write_data(&fit->data, stream);
+    for (int i = 0; i < fit->logs; i++)
+        write_log(&fit->log[i], stream);
     return fclose(stream) == 0 ? text : NULL;
 }
 
@@ -239,7 +363,8 @@ static ld_status make_workers(fit_launches *self, ld_error *error)
         fit_worker *worker = &self->worker[i];
         worker->model = calloc(1, sizeof *worker->model);
         worker->summary = calloc(1, sizeof *worker->summary);
-        if (!worker->model || !worker->summary)
+        worker->history = self->fit->logs > 0 ? ld_history_new(NULL) : NULL;
+        if (!worker->model || !worker->summary || (self->fit->logs > 0 && !worker->history))
             return no_memory(error);
     }
     return self->worker ? LD_OK : no_memory(error);
@@ -269,6 +394,9 @@ void fit_launches_close(fit_launches *self)
         ld_simulation_free(self->worker[i].simulation);
         free(self->worker[i].model);
         free(self->worker[i].summary);
+        ld_history_free(self->worker[i].history);
+        for (int k = 0; k < FIT_MOST_LOGS; k++)
+            fit_log_run_free(&self->worker[i].log[k]);
     }
     free(self->worker);
     self->worker = NULL;

@@ -6,6 +6,7 @@
 #include <pthread.h>
 
 #include "fit/fit.h"
+#include "launchdyn/history.h"
 #include "launchdyn/simulation.h"
 #include "search/search_state.h"
 
@@ -14,6 +15,8 @@ typedef struct fit_worker {
     ld_model *model;
     ld_simulation *simulation; // of the launch run last
     ld_summary *summary;
+    ld_history *history;
+    fit_log_run log[FIT_MOST_LOGS]; // of the launch run last
 } fit_worker;
 
 typedef struct fit_launches {

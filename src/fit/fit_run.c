@@ -1,11 +1,11 @@
 #include <assert.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/random.h"
 #include "fit/fit_launches.h"
 #include "math/curves/distributions.h"
+#include "math/functions.h"
 #include "results/folder.h"
 
 enum { USUAL_STARTS = 4 };
@@ -21,16 +21,30 @@ static cube make_cube(const ld_fit *self)
     cube made;
     for (int i = 0; i < self->keys; i++) {
         const fit_key *key = &self->key[i];
-        double now = (field_get(self->model, &key->place) - key->low) / key->width;
+        double now = (key->start - key->low) / key->width;
         made.mean[i] = (key->mean - key->low) / key->width;
         made.deviation[i] = key->deviation / key->width;
         made.first[i] = now >= 0 && now <= 1 ? now : 0.5;
-        made.stream[i] = random_stream(key->place.path);
+        made.stream[i] = random_stream(key->name);
     }
     return made;
 }
 
 // ---- what is refused
+
+static ld_status check_data(const ld_fit *self, ld_error *error)
+{
+    int without_prior = 0;
+    for (int i = 0; i < self->keys; i++)
+        without_prior += isinf(self->key[i].deviation);
+    if (self->data.residuals == 0)
+        return ld_fail(error, LD_ERR_INPUT, "expected a file of measured launches or a log");
+    if (without_prior <= self->data.residuals)
+        return LD_OK;
+    return ld_fail(error, LD_ERR_INPUT,
+                   "%d keys without a prior, but %d measured results: expected as many results",
+                   without_prior, self->data.residuals);
+}
 
 static ld_status refuse_idle(const ld_fit *self, const fit_problem *problem, const cube *keys,
                              ld_error *error)
@@ -39,10 +53,10 @@ static ld_status refuse_idle(const ld_fit *self, const fit_problem *problem, con
     problem->stage(problem->self, "effect of each key", NAN);
     ld_status status = fit_find_idle(problem, keys->first, idle, error);
     for (int i = 0; i < self->keys && !status; i++)
-        if (idle[i])
-            status = ld_fail(error, LD_ERR_INPUT,
-                             "%s changes none of the measured results: leave it out",
-                             self->key[i].place.path);
+        if (idle[i] && (i < self->own_keys || isinf(self->key[i].deviation)))
+            status =
+                ld_fail(error, LD_ERR_INPUT,
+                        "%s changes none of the measured results: leave it out", self->key[i].name);
     return status;
 }
 
@@ -69,12 +83,22 @@ static double chance_of(const ld_fit *self)
     return fisher_beyond(quality->chi2 * rest / (known * (double)freedom), freedom, rest);
 }
 
+// Independent residuals: of a series its samples over the sum of their correlation.
+static int count_independent(const ld_fit *self)
+{
+    double count = 0;
+    for (int i = 0; i < self->logs; i++)
+        for (int k = 0; k < self->log[i].log.sensors; k++)
+            count += (double)self->log[i].series[k].count / self->log[i].series[k].correlation;
+    return self->data.residuals - (int)fit_log_samples(self->log, self->logs) + (int)count;
+}
+
 static void find_quality(ld_fit *self)
 {
     fit_quality *quality = &self->quality;
     const fit_data *data = &self->data;
     *quality = (fit_quality){.chi2 = self->minimum.best.chi2,
-                             .freedom = data->residuals + count_priors(self) - self->keys,
+                             .freedom = count_independent(self) + count_priors(self) - self->keys,
                              .misfit_chance = NAN};
     for (int i = 0; i < self->keys; i++)
         quality->freedom += self->minimum.at_bound[i];
@@ -99,7 +123,7 @@ static void find_inflation(ld_fit *self)
     self->inflated_freedom = INFINITY;
     if (data->estimated == 0)
         return;
-    bool alike = data->launches == 1 && data->estimated == data->results;
+    bool alike = data->launches == 1 && data->estimated == data->results && self->logs == 0;
     int beyond = self->quality.freedom > 0 ? self->quality.freedom : 0;
     int most = data->estimated - 1, used = beyond < most ? beyond : most;
     double known = data->freedom, square = alike ? self->quality.chi2 : used;
@@ -118,6 +142,18 @@ static double interval_factor(const ld_fit *self)
     return student * sqrt(self->inflation);
 }
 
+// The interval of a key by its deviation; at its bound there is none.
+static void fill_interval(ld_fit *self, int i, double deviation)
+{
+    const fit_key *key = &self->key[i];
+    fit_estimate *found = &self->estimate[i];
+    double half = interval_factor(self) * deviation, high = key->low + key->width;
+    found->open[0] = !(found->value - half > key->low);
+    found->open[1] = !(found->value + half < high);
+    found->low = found->open[0] ? key->low : found->value - half;
+    found->high = found->open[1] ? high : found->value + half;
+}
+
 static void fill_estimates(ld_fit *self)
 {
     for (int i = 0; i < self->keys; i++) {
@@ -127,9 +163,30 @@ static void fill_estimates(ld_fit *self)
         found->value = fit_key_value(key, self->minimum.best.p[i]);
         found->at_bound = self->minimum.at_bound[i];
         found->deviation = key->width * sqrt(variance * self->inflation);
+        if (i >= self->own_keys || self->rough)
+            fill_interval(self, i, key->width * sqrt(variance));
     }
 }
 
+// The profile of a key; its interval, unless a lower minimum was found.
+static ld_status find_interval(ld_fit *self, const fit_problem *problem, int i, bool *lower,
+                               ld_error *error)
+{
+    fit_end end[2];
+    fit_estimate *found = &self->estimate[i];
+    char text[LD_MAX_PATH + 16];
+    snprintf(text, sizeof text, "interval of %s", self->key[i].name);
+    problem->stage(problem->self, text, self->minimum.best.chi2);
+    ld_status status =
+        fit_profile(problem, &self->minimum, i, interval_factor(self), end, lower, error);
+    for (int side = 0; side < 2 && !status && !*lower; side++) {
+        *(side ? &found->high : &found->low) = fit_key_value(&self->key[i], end[side].p);
+        found->open[side] = end[side].open;
+    }
+    return status;
+}
+
+// Where profiles find lower minima again and again, intervals follow from the deviations.
 static ld_status find_intervals(ld_fit *self, const fit_problem *problem, ld_error *error)
 {
     enum { TIMES = 5 };
@@ -139,23 +196,33 @@ static ld_status find_intervals(ld_fit *self, const fit_problem *problem, ld_err
         lower = false;
         find_quality(self);
         find_inflation(self);
-        double factor = interval_factor(self);
-        for (int i = 0; i < self->keys && !status && !lower; i++) {
-            fit_end end[2];
-            char text[LD_MAX_PATH + 16];
-            snprintf(text, sizeof text, "interval of %s", self->key[i].place.path);
-            problem->stage(problem->self, text, self->minimum.best.chi2);
-            status = fit_profile(problem, &self->minimum, i, factor, end, &lower, error);
-            if (status)
-                break;
-            self->estimate[i].low = fit_key_value(&self->key[i], end[0].p);
-            self->estimate[i].high = fit_key_value(&self->key[i], end[1].p);
-            self->estimate[i].open[0] = end[0].open;
-            self->estimate[i].open[1] = end[1].open;
-        }
+        for (int i = 0; i < self->own_keys && !status && !lower; i++)
+            status = find_interval(self, problem, i, &lower, error);
     }
+    find_quality(self);
+    self->rough = lower;
+    self->level = interval_factor(self) * interval_factor(self);
     fill_estimates(self);
     return status;
+}
+
+// Simulated readings and results of a log.
+static void fill_fitted_log(ld_fit *self, const fit_log *log)
+{
+    const double *residual = self->minimum.best.residual;
+    for (int k = 0; k < log->log.sensors; k++) {
+        const fit_series *series = &log->series[k];
+        double unit = series->noise * sqrt(series->correlation);
+        for (size_t i = 0; i < series->count; i++) {
+            size_t at = (size_t)series->first + i;
+            self->fitted[at] = series->value[i] + residual[at] * unit;
+        }
+    }
+    for (int i = 0; i < log->scalars; i++) {
+        const fit_scalar *scalar = &log->scalar[i];
+        self->fitted[scalar->residual] =
+            scalar->measured + residual[scalar->residual] * scalar->uncertainty;
+    }
 }
 
 // Simulated results, from the residuals: f = mean + root^-T residual.
@@ -177,7 +244,24 @@ static ld_status fill_fitted(ld_fit *self, ld_error *error)
             self->fitted[launch->first + i] = launch->mean[i] + apart[i];
         }
     }
+    for (int i = 0; i < self->logs; i++)
+        fill_fitted_log(self, &self->log[i]);
     return LD_OK;
+}
+
+// ---- correlated residuals
+
+// Weighs series whose residuals are correlated by their independent samples. *changed: there are.
+static void weigh_correlated(ld_fit *self, bool *changed)
+{
+    *changed = false;
+    for (int i = 0; i < self->logs; i++)
+        for (int k = 0; k < self->log[i].log.sensors; k++) {
+            fit_series *series = &self->log[i].series[k];
+            series->correlation =
+                fit_correlation_sum(&self->minimum.best.residual[series->first], series->count);
+            *changed = *changed || series->correlation > 1;
+        }
 }
 
 // ---- from begin to end
@@ -187,6 +271,7 @@ static ld_status fit_keys(ld_fit *self, fit_launches *launches, ld_error *error)
     const cube keys = make_cube(self);
     const fit_problem problem = {.keys = self->keys,
                                  .residuals = self->data.residuals,
+                                 .steady = self->keys - self->own_keys,
                                  .prior_mean = keys.mean,
                                  .prior_deviation = keys.deviation,
                                  .evaluate = fit_launches_evaluate,
@@ -194,6 +279,10 @@ static ld_status fit_keys(ld_fit *self, fit_launches *launches, ld_error *error)
                                  .self = launches};
     const ld_fit_options *options = launches->options;
     fit_minimum_free(&self->minimum);
+    self->weighed_again = false;
+    for (int i = 0; i < self->logs; i++)
+        for (int k = 0; k < self->log[i].log.sensors; k++)
+            self->log[i].series[k].correlation = 1;
     ld_status status = refuse_idle(self, &problem, &keys, error);
     if (!status)
         status = fit_minimise(&problem, options->starts, keys.first, (uint64_t)options->seed,
@@ -202,6 +291,10 @@ static ld_status fit_keys(ld_fit *self, fit_launches *launches, ld_error *error)
         const ld_error why = *error;
         return ld_fail(error, status, "%.300s; first: %.600s", why.text, launches->reason);
     }
+    if (!status)
+        weigh_correlated(self, &self->weighed_again);
+    if (!status && self->weighed_again)
+        status = fit_minimise_again(&problem, &self->minimum, error);
     if (!status)
         status = find_intervals(self, &problem, error);
     return status ? status : fill_fitted(self, error);
@@ -236,7 +329,9 @@ ld_status ld_fit_run(ld_fit *self, const ld_fit_options *given, ld_error *error)
     options.starts = options.starts ? options.starts : USUAL_STARTS;
     if (options.starts < 1 || options.starts > FIT_MOST_STARTS)
         return ld_fail(error, LD_ERR_INPUT, "expected 1 to %d starts", FIT_MOST_STARTS);
-    ld_status status = make_folder(options.folder, error);
+    ld_status status = check_data(self, error);
+    if (!status)
+        status = make_folder(options.folder, error);
     if (status)
         return status;
     self->done = false;

@@ -31,12 +31,21 @@ double fit_correlation(const ld_fit *fit, int i, int j)
            sqrt(covariance[i * FIT_MOST_KEYS + i] * covariance[j * FIT_MOST_KEYS + j]);
 }
 
+double fit_log_offset(const ld_fit *fit, const fit_log *log)
+{
+    return log->clock_key < 0 ? log->log.clock.offset : fit->estimate[log->clock_key].value;
+}
+
 int fit_starts_at_best(const ld_fit *fit)
 {
     const double apart = 1;
+    const fit_minimum *minimum = &fit->minimum;
+    double best = fit->weighed_again ? INFINITY : minimum->best.chi2;
     int count = 0;
-    for (int i = 0; i < fit->minimum.starts; i++)
-        count += fit->minimum.start[i].chi2 - fit->minimum.best.chi2 < apart;
+    for (int i = 0; i < minimum->starts && fit->weighed_again; i++)
+        best = fmin(best, minimum->start[i].chi2);
+    for (int i = 0; i < minimum->starts; i++)
+        count += minimum->start[i].chi2 - best < apart;
     return count;
 }
 
@@ -85,10 +94,16 @@ static void print_verdict(const ld_fit *fit, FILE *stream)
 static void print_head(const ld_fit *fit, FILE *stream)
 {
     const fit_data *data = &fit->data;
-    fprintf(stream, "%d key%s fitted to %d result%s of %zu launch%s", fit->keys, plural(fit->keys),
-            data->results, plural(data->results), data->rows, data->rows == 1 ? "" : "es");
-    if (data->launches > 1)
+    size_t samples = fit_log_samples(fit->log, fit->logs);
+    fprintf(stream, "%d key%s fitted to ", fit->keys, plural(fit->keys));
+    if (data->rows > 0)
+        fprintf(stream, "%d result%s of %zu launch%s", data->results, plural(data->results),
+                data->rows, data->rows == 1 ? "" : "es");
+    if (data->rows > 0 && data->launches > 1)
         fprintf(stream, " under %zu settings", data->launches);
+    if (fit->logs > 0)
+        fprintf(stream, "%s%zu sample%s of %d log%s", data->rows > 0 ? ", " : "", samples,
+                plural((long long)samples), fit->logs, plural(fit->logs));
     fprintf(stream, "; %lld launches simulated\n", (long long)fit->simulated);
     print_verdict(fit, stream);
     if (data->estimated > 0)
@@ -105,7 +120,7 @@ static void print_key(const fit_key *key, const fit_estimate *found, int width, 
     double to = 1 / key->shown_factor;
     double spread = found->deviation > 0 ? found->deviation : found->high - found->low;
     int digits = show_digits(found->value, spread, 3);
-    show_name(stream, width, key->place.path, key->shown_unit);
+    show_name(stream, width, key->name, key->shown_unit);
     show_number(stream, 12, found->value * to, digits);
     show_number(stream, 12, found->deviation * to, 2);
     const double end[2] = {found->low, found->high};
@@ -121,7 +136,7 @@ static int name_width(const ld_fit *fit)
 {
     int width = SHOW_NAME;
     for (int i = 0; i < fit->keys; i++) {
-        int length = (int)(strlen(fit->key[i].place.path) + strlen(fit->key[i].shown_unit) + 3);
+        int length = (int)(strlen(fit->key[i].name) + strlen(fit->key[i].shown_unit) + 3);
         width = length > width ? length : width;
     }
     return width;
@@ -138,6 +153,10 @@ static void print_keys(const ld_fit *fit, FILE *stream)
     }
     if (open > 0)
         fputs("* the interval reaches the bound\n", stream);
+    if (fit->rough)
+        fputs("intervals by the deviations: chi2 is too rough along the keys for profiles; reduce "
+              "run.tolerance\n",
+              stream);
 }
 
 static void print_correlations(const ld_fit *fit, FILE *stream)
@@ -147,7 +166,7 @@ static void print_correlations(const ld_fit *fit, FILE *stream)
         for (int j = 0; j < i; j++)
             if (fabs(fit_correlation(fit, i, j)) >= strong)
                 fprintf(stream, "correlation %+.3f of %s and %s\n", fit_correlation(fit, i, j),
-                        fit->key[j].place.path, fit->key[i].place.path);
+                        fit->key[j].name, fit->key[i].name);
 }
 
 // Combinations of keys in the order in which the data tell them.
@@ -166,17 +185,22 @@ static void print_directions(const ld_fit *fit, FILE *stream)
         fprintf(stream, " %-8s", fit_is_untold(fit, k) ? "not told" : "");
         for (int i = 0; i < fit->keys; i++)
             if (fabs(fit->minimum.direction[k][i]) >= small)
-                fprintf(stream, " %+.2f %s", fit->minimum.direction[k][i], fit->key[i].place.path);
+                fprintf(stream, " %+.2f %s", fit->minimum.direction[k][i], fit->key[i].name);
         fputs("\n", stream);
     }
+}
+
+static void print_head_of_results(FILE *stream)
+{
+    fprintf(stream, "\n%-*s%14s%14s%14s\n", SHOW_NAME, "result", "measured", "fitted",
+            "difference/u");
 }
 
 // Of launches alike: measured, fitted, their difference.
 static void print_only_launch(const ld_fit *fit, FILE *stream)
 {
     const fit_launch *launch = &fit->data.launch[0];
-    fprintf(stream, "\n%-*s%14s%14s%14s\n", SHOW_NAME, "result", "measured", "fitted",
-            "difference/u");
+    print_head_of_results(stream);
     for (int i = 0; i < launch->cells; i++) {
         const fit_result *result = &fit->data.result[launch->result[i]];
         double u = fit_cell_deviation(launch, i), fitted = fit->fitted[launch->first + i];
@@ -224,6 +248,47 @@ static void print_results(const ld_fit *fit, FILE *stream)
         print_result(fit, i, stream);
 }
 
+// Series of logs: how far readings are apart, in units of the noise of a sample.
+static void print_series(const ld_fit *fit, FILE *stream)
+{
+    fprintf(stream, "\n%-*s%14s%14s%14s%14s\n", SHOW_NAME, "(measured - fitted)/noise", "samples",
+            "independent", "mean", "rms");
+    for (int i = 0; i < fit->logs; i++)
+        for (int k = 0; k < fit->log[i].log.sensors; k++) {
+            const fit_series *series = &fit->log[i].series[k];
+            const double *fitted = &fit->fitted[series->first];
+            double sum = 0, square = 0, n = (double)series->count;
+            for (size_t j = 0; j < series->count; j++) {
+                double apart = (series->value[j] - fitted[j]) / series->noise;
+                sum += apart;
+                square += apart * apart;
+            }
+            show_name(stream, SHOW_NAME, fit->log[i].log.sensor[k].column, "");
+            fprintf(stream, "%14zu%14.0f", series->count, n / series->correlation);
+            show_number(stream, 14, sum / n, 3);
+            show_number(stream, 14, sqrt(square / n), 3);
+            fputs("\n", stream);
+        }
+}
+
+static void print_scalars(const ld_fit *fit, FILE *stream)
+{
+    int count = 0;
+    for (int i = 0; i < fit->logs; i++)
+        for (int k = 0; k < fit->log[i].scalars; k++) {
+            const fit_scalar *scalar = &fit->log[i].scalar[k];
+            double fitted = fit->fitted[scalar->residual];
+            int digits = show_digits(scalar->measured, scalar->uncertainty, 4);
+            if (count++ == 0)
+                print_head_of_results(stream);
+            show_name(stream, SHOW_NAME, scalar->name, scalar->unit);
+            show_number(stream, 14, scalar->measured, digits);
+            show_number(stream, 14, fitted, digits);
+            show_number(stream, 14, (scalar->measured - fitted) / scalar->uncertainty, 3);
+            fputs("\n", stream);
+        }
+}
+
 void ld_fit_print(const ld_fit *fit, FILE *stream)
 {
     if (!fit->done)
@@ -232,8 +297,11 @@ void ld_fit_print(const ld_fit *fit, FILE *stream)
     print_keys(fit, stream);
     print_correlations(fit, stream);
     print_directions(fit, stream);
-    if (fit->data.launches == 1)
+    if (fit->data.results > 0 && fit->data.launches == 1)
         print_only_launch(fit, stream);
-    else
+    else if (fit->data.results > 0)
         print_results(fit, stream);
+    print_scalars(fit, stream);
+    if (fit->logs > 0)
+        print_series(fit, stream);
 }

@@ -12,6 +12,7 @@ enum { FIT_MOST_KEYS = 32 };
 // Residuals of data, each over its standard deviation, as functions of keys p in the unit cube.
 typedef struct fit_problem {
     int keys, residuals;
+    int steady;                    // keys at the end that all starts have where the first has them
     const double *prior_mean;      // [keys] in the cube
     const double *prior_deviation; // [keys] in the cube; infinite: the key has no prior
     // Computes residuals[count][residuals] at points[count][keys]. there[i] false: there is no

@@ -64,7 +64,9 @@ static void choose_start(const fit_problem *problem, const double *first, uint64
                          const uint64_t *stream, int number, double *p)
 {
     for (int i = 0; i < problem->keys; i++)
-        p[i] = number == 0 ? first[i] : random_uniform(seed, stream[i], (uint64_t)number, 0, 0);
+        p[i] = number == 0 || i >= problem->keys - problem->steady
+                   ? first[i]
+                   : random_uniform(seed, stream[i], (uint64_t)number, 0, 0);
 }
 
 // NOLINTNEXTLINE(readability-function-size)
@@ -273,6 +275,12 @@ ld_status fit_minimise(const fit_problem *problem, int starts, const double *fir
     return status ? status : settle(problem, minimum, error);
 }
 
+ld_status fit_minimise_again(const fit_problem *problem, fit_minimum *minimum, ld_error *error)
+{
+    ld_status status = fit_point_compute(problem, &minimum->best, error);
+    return status ? status : settle(problem, minimum, error);
+}
+
 // ---- profiles
 
 typedef struct profile {
@@ -307,6 +315,11 @@ static ld_status find_rise(profile *self, double p, double *rise, ld_error *erro
     ld_status status =
         marquardt_minimise(self->problem, held, self->minimum->step, rough, at, error);
     *rise = at->there ? sqrt(fmax(at->chi2 - self->minimum->best.chi2, 0)) : INFINITY;
+    fit_trace *trace = &self->minimum->trace[self->key];
+    if (!status && at->there && trace->count < FIT_MOST_TRACE) {
+        trace->p[trace->count] = p;
+        trace->rise[trace->count++] = *rise * *rise;
+    }
     return status;
 }
 
@@ -391,6 +404,7 @@ ld_status fit_profile(const fit_problem *problem, fit_minimum *minimum, int key,
     double reach = variance > 0 ? z * sqrt(variance) : 0.1;
     ld_status status = LD_OK;
     *lower = false;
+    minimum->trace[key].count = 0;
     find_slopes(&self);
     for (int side = 0; side < 2 && !status && !*lower; side++) {
         double bound = side, first = side ? fmin(best + reach, 1) : fmax(best - reach, 0);

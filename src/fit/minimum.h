@@ -14,6 +14,13 @@ typedef struct fit_start {
     double from[FIT_MOST_KEYS], to[FIT_MOST_KEYS], chi2;
 } fit_start;
 
+// How chi2 rises along a key, minimised over the others: where a profile went.
+enum { FIT_MOST_TRACE = 64 };
+typedef struct fit_trace {
+    int count;
+    double p[FIT_MOST_TRACE], rise[FIT_MOST_TRACE]; // [count] unsorted
+} fit_trace;
+
 typedef struct fit_minimum {
     fit_point best;               // its rows are to be freed
     bool at_bound[FIT_MOST_KEYS]; // held there: the rows would fall on beyond it
@@ -24,6 +31,7 @@ typedef struct fit_minimum {
     // Of the derivatives of the data alone, by all keys: how many standard deviations the rows
     // change along a unit of the cube, the largest first, and the directions, of length 1.
     double singular_value[FIT_MOST_KEYS], direction[FIT_MOST_KEYS][FIT_MOST_KEYS];
+    fit_trace trace[FIT_MOST_KEYS]; // of the latest profile of each key
     int starts;
     fit_start *start; // [starts], to be freed
 } fit_minimum;
@@ -38,6 +46,9 @@ ld_status fit_find_idle(const fit_problem *problem, const double *p, bool *idle,
 ld_status fit_minimise(const fit_problem *problem, int starts, const double *first, uint64_t seed,
                        const uint64_t *stream, fit_minimum *minimum, ld_error *error);
 void fit_minimum_free(fit_minimum *minimum);
+
+// Minimises again from the best point, the rows having got other weights.
+ld_status fit_minimise_again(const fit_problem *problem, fit_minimum *minimum, ld_error *error);
 
 // An end of the interval of a key in which the minimum over the other keys rises by at most z^2.
 typedef struct fit_end {
