@@ -196,8 +196,10 @@ static bool write_fitted(const ld_fit *fit, const char *folder, FILE *stream)
     found_key key[FIT_MOST_KEYS];
     for (int i = 0; i < fit->own_keys; i++)
         key[i] = (found_key){&fit->key[i].place, fit->key[i].unit, fit->estimate[i].value};
-    const found_scenario found = {
-        .model = fit->model, .how = "fitted values (launchdyn fit)", .keys = fit->own_keys, .key = key};
+    const found_scenario found = {.model = fit->model,
+                                  .how = "fitted values (launchdyn fit)",
+                                  .keys = fit->own_keys,
+                                  .key = key};
     return found_scenario_write(&found, folder, stream);
 }
 

@@ -9,6 +9,7 @@
 #include "base/memory_stream.h"
 #include "launchdyn/scenario.h"
 #include "model/model.h"
+#include "model/parts.h"
 #include "quantities/summary.h"
 #include "run/simulation_build.h"
 #include "state/simulation.h"

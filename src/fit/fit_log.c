@@ -9,7 +9,7 @@
 #include "compare/sensor_samples.h"
 #include "launchdyn/scenario.h"
 #include "math/functions.h"
-#include "run/measures.h"
+#include "run/measure_names.h"
 
 static ld_status no_memory(ld_error *error)
 {
