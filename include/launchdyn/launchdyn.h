@@ -5,6 +5,7 @@
 
 #include "launchdyn/child.h"
 #include "launchdyn/compare.h"
+#include "launchdyn/derivatives.h"
 #include "launchdyn/environment.h"
 #include "launchdyn/fit.h"
 #include "launchdyn/fmu.h"

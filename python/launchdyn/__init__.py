@@ -16,6 +16,7 @@ from ._library import VERSION as __version__
 from ._library import library as _found
 from ._values import Key, keys
 from .comparison import (ComparedResult, ComparedSeries, Comparison, Validation, compare)
+from .derivatives import Derivative, Sensitivity, sensitivity
 from .errors import (FileError, InputError, Interrupted, LaunchdynError, LaunchError, Message,
                      MissingError, NumericError, OutOfMemory, Status, UnknownName)
 from .fitting import Fit, FittedKey, fit
@@ -36,12 +37,12 @@ def library_version() -> str:
 
 __all__ = [
     "BaseFrame", "Cell", "Cells", "Column", "ComparedResult", "ComparedSeries", "Comparison",
-    "Counts", "Estimate", "Event", "EventKind", "FileError", "Fit", "FittedKey", "Footprint",
-    "History", "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError", "Loop",
-    "LoopPoints", "Margins", "Message", "MissingError", "Mode", "NumericError", "OutOfMemory",
-    "Point", "Pole", "Quantity", "Response", "Result", "Run", "Scatter", "Scenario",
-    "Simulation", "Statistics", "Status", "Strength", "Study", "StudyColumn", "StudyData",
-    "Summary", "UnknownName", "Validation", "VehicleRun", "View", "Wrench", "__version__",
-    "compare", "draw", "figures", "fit", "keys", "library_version", "merge_shards",
-    "write_report",
+    "Counts", "Derivative", "Estimate", "Event", "EventKind", "FileError", "Fit", "FittedKey",
+    "Footprint", "History", "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError",
+    "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode", "NumericError",
+    "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run", "Scatter", "Scenario",
+    "Sensitivity", "Simulation", "Statistics", "Status", "Strength", "Study", "StudyColumn",
+    "StudyData", "Summary", "UnknownName", "Validation", "VehicleRun", "View", "Wrench",
+    "__version__", "compare", "draw", "figures", "fit", "keys", "library_version", "merge_shards",
+    "sensitivity", "write_report",
 ]

@@ -114,6 +114,18 @@ class ld_fit_options(Structure):
                 ("reserved", c_void_p * 4)]
 
 
+class ld_derivative_key(Structure):
+    _fields_ = [("path", c_char_p), ("step", c_char_p)]
+
+
+DERIVATIVES_TOLD = CFUNCTYPE(None, c_void_p, c_int, c_int)
+
+
+class ld_derivative_options(Structure):
+    _fields_ = [("threads", c_int), ("self", c_void_p), ("progress", DERIVATIVES_TOLD),
+                ("go_on", GO_ON), ("reserved", c_void_p * 4)]
+
+
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
                 ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
@@ -342,6 +354,11 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_fit_print": (None, [_handle, c_void_p]),
     "ld_fit_print_json": (None, [_handle, c_void_p]),
     "ld_fit_free": (None, [_handle]),
+    "ld_derivatives_find": (c_int, [_handle, POINTER(ld_derivative_key), c_size_t,
+                                    POINTER(ld_derivative_options), _handles, _error]),
+    "ld_derivatives_free": (None, [_handle]),
+    "ld_derivatives_print": (c_int, [_handle, _text, c_void_p, _error]),
+    "ld_derivatives_print_json": (c_int, [_handle, _text, c_void_p, _error]),
     "ld_fmu_export": (c_int, [_handle, c_int, c_int, _text, _error]),
     "ld_figure_at": (POINTER(ld_figure), [c_size_t]),
     "ld_plot": (c_int, [POINTER(ld_picture), _text, _error]),

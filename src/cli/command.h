@@ -52,6 +52,7 @@ void command_plot_figures(void);
 int command_compare(const command *self, int argc, char **argv);
 int command_report(const command *self, int argc, char **argv);
 int command_response(const command *self, int argc, char **argv);
+int command_sensitivity(const command *self, int argc, char **argv);
 int command_road(const command *self, int argc, char **argv);
 int command_wind(const command *self, int argc, char **argv);
 

@@ -137,6 +137,20 @@ static const command commands[] = {
      .summary = "Show profile and spectrum of the vehicle's road",
      .run = command_road,
      .in_child = true},
+    {.name = "sensitivity",
+     .arguments = "FILE KEY[=STEP]...",
+     .words = COMMAND_WORDS,
+     .summary = "Show how a launch's results change with keys of its scenario",
+     .about =
+         "Prints derivatives of exit figures, instants and flight by keys: central differences "
+         "of launches that take the steps of one, so that they differ as smoothly as the "
+         "equations do. A star marks results for which the launch is not smooth. STEP is how "
+         "far a key is changed to either side, 1e-5 of its value unless given.",
+     .examples = "launchdyn sensitivity scenario.yaml rocket.mass base.elevation|By two keys\n"
+                 "launchdyn sensitivity scenario.yaml rocket.mass --what pitch_rate --json|One "
+                 "result, as JSON",
+     .run = command_sensitivity,
+     .in_child = true},
     {.name = "response",
      .arguments = "FILE",
      .words = 1,
@@ -188,7 +202,7 @@ static void print_commands(FILE *stream)
     fputs("launchdyn simulates how a rocket leaves a flexible tube on a fixed or moving base.\n\n"
           "Usage: launchdyn COMMAND [OPTION...] ...\n\n",
           stream);
-    enum { NAME = 10, ARGUMENTS = 11 };
+    enum { NAME = 13, ARGUMENTS = 11 };
     for (int i = 0; i < COMMANDS; i++) {
         const command *c = &commands[i];
         fprintf(stream, "  %-*s%-*s", NAME, c->name, ARGUMENTS, c->arguments);

@@ -145,6 +145,14 @@ void progress_launches(void *self, const ld_fit_counts *counts)
                chi2);
 }
 
+// "5 of 21 launches".
+void progress_derivatives(void *self, int launches, int of)
+{
+    run_progress *progress = self;
+    if (is_due(progress, (double)launches / of, now()))
+        print_line(progress, "%d of %d launches", launches, of);
+}
+
 void progress_end(run_progress *progress)
 {
     if (progress->drawn)

@@ -28,6 +28,8 @@ void progress_samples(void *self, const ld_study_counts *counts);
 bool progress_resume(void *self);
 // For ld_fit_options: how many launches are done.
 void progress_launches(void *self, const ld_fit_counts *counts);
+// For ld_derivative_options: how many launches of them are done.
+void progress_derivatives(void *self, int launches, int of);
 
 // Takes the line away.
 void progress_end(run_progress *progress);

@@ -333,6 +333,39 @@ static int try_steps(exponential_steps *self, int64_t at, double left, double *e
     return rung;
 }
 
+// The step that the course has next, and what steered it; NULL: its own.
+static const course_step *followed_step(exponential_steps *self)
+{
+    linear_part *part = self->part;
+    step_course *course = self->equations.course;
+    const course_step *next =
+        course && course->follows ? step_course_next(course, true, true) : NULL;
+    if (next) {
+        part->rung = next->control[0];
+        part->best = next->control[1];
+        part->spent = next->control[2];
+        part->patience = next->control[3];
+    }
+    return next;
+}
+
+static course_step present_control(const linear_part *part)
+{
+    return (course_step){.begins = true,
+                         .is_long = true,
+                         .control = {part->rung, part->best, part->spent, part->patience}};
+}
+
+static int follow_step(exponential_steps *self, int rung, double *error)
+{
+    const exponential_start start = {self->t, self->y, self->slope, self->drift};
+    const exponential_end end = {self->y_end, self->slope_end, self->error};
+    if (rung == RUNGS || exponential_step(self->part->steps, rung, &start, &end))
+        return RUNGS;
+    *error = size_of_error(self);
+    return rung;
+}
+
 exponential_outcome exponential_steps_step(exponential_steps *self, double t_stop)
 {
     const integrator_settings *equations = &self->equations;
@@ -343,10 +376,16 @@ exponential_outcome exponential_steps_step(exponential_steps *self, double t_sto
         return refuse_step(self, self->first + ceil(x) * finest(self));
     if (finest(self) > left * (1 + 1e-9) || !find_present(self))
         return refuse_step(self, end_of(self, at, RUNGS - 1));
+    const course_step *next = followed_step(self);
+    course_step kept = present_control(self->part);
     if (!renew_jacobian(self))
         return refuse_step(self, end_of(self, at, 0));
     self->settings.drift(self->t, self->y, self->slope, self->drift, equations->self);
-    int rung = try_steps(self, at, left, &error);
+    int rung = next ? follow_step(self, next->rung, &error) : try_steps(self, at, left, &error);
+    if (equations->course && !equations->course->follows) {
+        kept.rung = rung;
+        step_course_add(equations->course, &kept);
+    }
     if (rung == RUNGS) {
         self->part->rung = RUNGS - 1;
         self->part->spent += STRETCH;

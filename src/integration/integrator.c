@@ -58,6 +58,8 @@ struct integrator {
     double h_next;                            // size of the next step if no stop is in its way
     bool shortened;                           // it is so small because of a stop
     int64_t steps_before, evaluations_before; // counts of those who saved
+
+    bool follows; // the step under way has its size from the course
 };
 
 static double *data(N_Vector v)
@@ -123,13 +125,17 @@ static int call_project(double t, N_Vector y, void *user)
     return failed ? -1 : 0;
 }
 
+// No error is too large in a step whose size is another's.
+static const double allowed_where_followed = 1e-100;
+
 static int error_weights(N_Vector y, N_Vector weights, void *user)
 {
     integrator *self = user;
     const double *py = data(y), *rtol = data(self->rtol), *atol = data(self->atol);
     double *pw = data(weights);
+    double share = self->follows ? allowed_where_followed : 1;
     for (size_t i = 0; i < self->settings.n; i++)
-        pw[i] = 1 / (rtol[i] * fabs(py[i]) + atol[i]);
+        pw[i] = share / (rtol[i] * fabs(py[i]) + atol[i]);
     return 0;
 }
 
@@ -467,11 +473,32 @@ static integrator_outcome stop_at_once(integrator *self, double t_stop)
     return INTEGRATOR_STOPPED;
 }
 
+// The size that the course has for the next step; 0: its own.
+static double followed_size(integrator *self, double t_stop)
+{
+    step_course *course = self->settings.course;
+    const course_step *next =
+        course && course->follows ? step_course_next(course, self->anew, false) : NULL;
+    self->follows = next;
+    return next ? fmin(next->size, t_stop - self->t) : 0;
+}
+
+static void record_size(integrator *self, bool began, bool stopped)
+{
+    step_course *course = self->settings.course;
+    if (course && !course->follows)
+        step_course_add(course,
+                        &(course_step){.begins = began, .size = stopped ? INFINITY : self->h});
+}
+
 integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *error)
 {
     if (is_at(self, t_stop))
         return stop_at_once(self, t_stop);
-    int flag = self->anew     ? start(self, self->next_step)
+    bool anew = self->anew;
+    double size = followed_size(self, t_stop);
+    int flag = size > 0       ? start(self, size)
+               : anew         ? start(self, self->next_step)
                : self->loaded ? resume(self, t_stop)
                               : continue_steps(self);
     copy(self->y, self->y_previous);
@@ -481,6 +508,7 @@ integrator_outcome integrator_step(integrator *self, double t_stop, ld_error *er
         flag = evolve_step(self, t_stop);
     if (flag < 0)
         return fail(self, flag, error);
+    record_size(self, anew, flag == ARK_TSTOP_RETURN || self->t >= t_stop);
     if (flag == ARK_ROOT_RETURN) {
         ERKStepGetRootInfo(self->erk, self->found);
         return land_on_event(self, error);

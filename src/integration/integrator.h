@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "base/archive.h"
+#include "integration/step_course.h"
 #include "launchdyn/status.h"
 
 typedef struct integrator integrator;
@@ -41,7 +42,8 @@ typedef struct integrator_settings {
     integrator_project project; // NULL: none
     integrator_events events;   // NULL: none
     int event_count;
-    void *self; // handed to rhs, project and events
+    void *self;          // handed to rhs, project and events
+    step_course *course; // NULL: steps of error-controlled size that no one keeps
 } integrator_settings;
 
 typedef enum integrator_outcome {

@@ -3,6 +3,7 @@
 #ifndef LD_STATE_LAUNCH_STATE_H
 #define LD_STATE_LAUNCH_STATE_H
 
+#include "integration/step_course.h"
 #include "state/jets.h"
 #include "state/simulation.h"
 #include "systems/launching/launching_figures.h"
@@ -45,7 +46,8 @@ typedef struct launch_state {
         double y[LD_MAX_STATES];
         launcher_output out;
     } latest;
-    int64_t fallbacks; // evaluations in which the overall form did not hold
+    step_course *course; // that its steps are kept in, or taken from; NULL: none
+    int64_t fallbacks;   // evaluations in which the overall form did not hold
     double worst_condition;
 } launch_state;
 

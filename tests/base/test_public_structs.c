@@ -3,6 +3,7 @@
 #include "support/check.h"
 
 #include "launchdyn/compare.h"
+#include "launchdyn/derivatives.h"
 #include "launchdyn/environment.h"
 #include "launchdyn/fit.h"
 #include "launchdyn/history.h"
@@ -31,6 +32,8 @@
 // Asked for by the caller: may grow into what is reserved.
 SIZE(ld_compare_options, 80);
 SIZE(ld_fit_options, 80);
+SIZE(ld_derivative_key, 16);
+SIZE(ld_derivative_options, 64);
 SIZE(ld_picture, 80);
 SIZE(ld_response_wish, 96);
 SIZE(ld_watch, 16);

@@ -67,6 +67,7 @@ integrator_settings integrated_settings(propagator *self, const tolerances *all)
         .events = events,
         .event_count = self->events.count,
         .self = self,
+        .course = launch->course,
     };
     return settings;
 }
