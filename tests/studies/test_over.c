@@ -258,6 +258,71 @@ static void test_coverage(void **state)
     free_pool();
 }
 
+// Differences of quantiles of pairs, whose values have twice the deviation of their references.
+static void test_quantile_differences(void **state)
+{
+    (void)state;
+    static const struct {
+        made_case made;
+        double level, quantile; // of a normal distribution
+    } cases[] = {
+        {{"60 of 1, half in common", 1, 60, 1, 0, 0.5, 0, 0, 0}, 0.5, 0},
+        {{"100 of 1, as good as the same numbers", 1, 100, 1, 0, 0.99, 0, 0, 0}, 0.5, 0},
+        {{"40 of 6, which share half", 1, 40, 6, 0.5, 0.9, 0, 0, 0}, 0.9, 1.2815515655446004},
+        {{"120 of 1", 1, 120, 1, 0, 0.9, 0, 0, 0}, 0.95, 1.6448536269514722},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double covered = 0, mean = 0;
+        const double truth = (RATIO - 1) * cases[i].quantile;
+        for (uint64_t repeat = 0; repeat < REPEATS; repeat++) {
+            estimate found;
+            make_pool(&cases[i].made, repeat);
+            assert_int_equal(pooled_quantile_difference(&pool, cases[i].level, &found), LD_OK);
+            covered += inside(found, truth);
+            mean += found.value / REPEATS;
+        }
+        printf("  %s, %g %%\n", cases[i].made.name, 100 * cases[i].level);
+        CHECK_BELOW("mean of the differences of quantiles", mean - truth, 0.05);
+        CHECK_WITHIN("difference of quantiles inside [%]", covered, 93, 97);
+    }
+    free_pool();
+}
+
+// Against the definition: weights that are differences of the incomplete beta function, here summed
+// by the trapezoid rule, over all values in their order; too few have no interval.
+static void test_quantile_weights(void **state)
+{
+    (void)state;
+    enum { N = 24, STEPS = 240000 };
+    const made_case made = {"made", 1, N, 1, 0, 0.3, 0, 0, 0};
+    const double q = 0.7, a = (N + 1) * q, b = (N + 1) * (1 - q);
+    double sorted[2][N], sum = 0, expected = 0;
+    estimate found, single;
+    make_pool(&made, 5);
+    for (int side = 0; side < 2; side++) {
+        for (int i = 0; i < N; i++)
+            sorted[side][i] = pool.row[i].value[side * POOLED_COLUMNS];
+        sort_values(sorted[side], N);
+    }
+    for (int k = 0; k < STEPS; k++) {
+        double x = (k + 0.5) / STEPS, density = pow(x, a - 1) * pow(1 - x, b - 1);
+        int i = (int)(x * N);
+        sum += density;
+        expected += density * (sorted[0][i] - sorted[1][i]);
+    }
+    assert_int_equal(pooled_quantile_difference(&pool, q, &found), LD_OK);
+    CHECK_BELOW("difference by the density of its weights", found.value - expected / sum, 1e-8);
+    assert_true(found.low < found.value && found.value < found.high);
+    assert_int_equal(pooled_quantile_difference(&pool, 0.99, &single), LD_OK);
+    assert_true(isfinite(single.value) && isnan(single.low) && isnan(single.high));
+    // with itself there is none
+    for (size_t i = 0; i < pool.count; i++)
+        pool.row[i].value[POOLED_COLUMNS] = pool.row[i].value[0] - 3;
+    assert_int_equal(pooled_quantile_difference(&pool, q, &found), LD_OK);
+    CHECK_BELOW("moved by 3", fmax(fabs(found.low - 3), fabs(found.high - 3)), 1e-12);
+    free_pool();
+}
+
 // ---- keys and cells
 
 // Six points, two samples each of one rocket; the last point's second sample failed.
@@ -393,10 +458,6 @@ static void test_refused(void **state)
                    "--statistic footprint: the study has no landing points");
     refuse_picture(&(ld_study_question){.what = "pitch_rate", .statistic = "share:>5 m"},
                    "--statistic share of pitch_rate: found \"5 m\", expected a number in rad/s");
-    refuse_picture(
-        &(ld_study_question){.what = "pitch_rate", .statistic = "quantile:0.9", .against = "1"},
-        "--against compares means, deviations and shares; leave out --against, or take "
-        "another --statistic");
     write_database(
         "single", STUDY("1") ONE_POINT
         "CREATE TABLE sample (sample INTEGER PRIMARY KEY, point INTEGER, status TEXT, "
@@ -419,8 +480,12 @@ static int make_database(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_alike),    cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_coverage), cmocka_unit_test(test_cells),
+        cmocka_unit_test(test_alike),
+        cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_quantile_differences),
+        cmocka_unit_test(test_quantile_weights),
+        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_cells),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, make_database, scratch_remove);

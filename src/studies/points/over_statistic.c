@@ -97,7 +97,7 @@ const char *over_statistic_word(const over *self, const over_statistic *statisti
 {
     static const char *const word[][2] = {[OVER_MEAN] = {"mean", "difference"},
                                           [OVER_DEVIATION] = {"standard deviation", "ratio"},
-                                          [OVER_QUANTILE] = {"quantile", ""},
+                                          [OVER_QUANTILE] = {"quantile", "difference"},
                                           [OVER_SHARE] = {"share", "difference"},
                                           [OVER_FOOTPRINT] = {"area", ""}};
     return word[statistic->kind][self->reference.data != NULL];
@@ -119,7 +119,9 @@ study_unit over_statistic_text(const over *self, const over_statistic *statistic
     else if (statistic->kind == OVER_FOOTPRINT)
         snprintf(text, size, "area with %.4g %% of the landings", 100 * statistic->level);
     else if (statistic->kind == OVER_QUANTILE)
-        snprintf(text, size, "%.4g %% quantile of %s", 100 * statistic->level, name);
+        snprintf(text, size,
+                 paired ? "difference of the %.4g %% quantiles of %s" : "%.4g %% quantile of %s",
+                 100 * statistic->level, name);
     else if (statistic->kind == OVER_DEVIATION)
         snprintf(text, size, "%s of %s", paired ? "ratio of the deviations" : "standard deviation",
                  name);
@@ -183,6 +185,8 @@ static ld_status find_footprint(const pooled *of, const over_statistic *self, es
 static ld_status find_pairs(const pooled *of, const over_statistic *self, estimate *found)
 {
     paired_statistics pairs;
+    if (self->kind == OVER_QUANTILE)
+        return pooled_quantile_difference(of, self->level, found);
     ld_status status = pooled_pairs(of, &pairs);
     *found = self->kind == OVER_DEVIATION ? pairs.spread : pairs.difference;
     return status;
@@ -204,9 +208,10 @@ static ld_status find_own(const pooled *of, const over_statistic *self, estimate
 
 static ld_status refuse_differences(ld_error *error)
 {
-    return ld_fail(error, LD_ERR_INPUT,
-                   "--against compares means, deviations and shares; leave out --against, or take "
-                   "another --statistic");
+    return ld_fail(
+        error, LD_ERR_INPUT,
+        "--against compares means, deviations, shares and quantiles; leave out --against, "
+        "or take another --statistic");
 }
 
 ld_status over_find(over *self, int cell, const over_statistic *statistic,
@@ -217,7 +222,7 @@ ld_status over_find(over *self, int cell, const over_statistic *statistic,
     pooled *of = &self->pool;
     const bool paired = self->reference.data;
     *found = (over_found){.of = none, .reference = paired && over_is_reference(self, cell)};
-    if (paired && (statistic->kind == OVER_QUANTILE || statistic->kind == OVER_FOOTPRINT))
+    if (paired && statistic->kind == OVER_FOOTPRINT)
         return refuse_differences(error);
     ld_status status =
         over_statistic_columns(statistic, self->data, result, column, &columns, error);

@@ -4,6 +4,7 @@
 
 #include "math/curves/distributions.h"
 #include "math/functions.h"
+#include "studies/statistics/quantile_difference.h"
 
 static ld_status no_memory(ld_error *error)
 {
@@ -201,6 +202,17 @@ ld_status pooled_quantile(const pooled *self, double q, estimate *quantile)
     for (size_t i = 0; i < self->count; i++)
         self->value[0][i] = self->row[i].value[0];
     return quantile_of_values(self->value[0], self->group, self->count, q, quantile);
+}
+
+ld_status pooled_quantile_difference(const pooled *self, double q, estimate *difference)
+{
+    double *const reference = self->value[POOLED_COLUMNS];
+    const quantile_pairs pairs = {{self->value[0], reference}, self->group, self->count};
+    for (size_t i = 0; i < self->count; i++) {
+        self->value[0][i] = self->row[i].value[0];
+        reference[i] = self->row[i].value[POOLED_COLUMNS];
+    }
+    return quantile_difference_of(&pairs, q, difference);
 }
 
 static ld_status compare(const pooled *self, bool spread, paired_statistics *of)

@@ -54,6 +54,10 @@ ld_status pooled_deviation(const pooled *self, estimate *deviation);
 // @return LD_OK, LD_ERR_MEMORY
 ld_status pooled_quantile(const pooled *self, double q, estimate *quantile);
 
+// How far the quantile of all rockets is from that of their pairs (quantile_difference.h).
+// @return LD_OK, LD_ERR_MEMORY
+ld_status pooled_quantile_difference(const pooled *self, double q, estimate *difference);
+
 // How far the pooled values are from those of reference: the difference of the means as of
 // pooled_mean(), the ratios of deviations as of pooled_deviation(). Of one point that of
 // paired_statistics_of().
