@@ -90,11 +90,20 @@ ld_status ld_study_merge(const char *folder, FILE *stream, ld_error *error);
 /// programs have worked on it, what differs between them is there several times.
 ld_status ld_study_read_origin(const char *folder, ld_origin *origin, ld_error *error);
 
+/// Sensitivities (docs/study.md), which require samples of a plan.
+typedef enum ld_index {
+    LD_INDEX_USUAL,  ///< what the plan of the samples gives
+    LD_INDEX_TOTAL,  ///< total indices, with first-order ones: plan saltelli
+    LD_INDEX_FIRST,  ///< first-order indices: plan saltelli, else shares of a regression
+    LD_INDEX_MORRIS, ///< elementary effects: plan morris
+} ld_index;
+
 /// What is shown of a study; NULL or zeros: the usual.
 typedef struct ld_study_view {
     const char *what;     ///< names of results, with commas between; "all"; NULL: a choice
     bool sensitivity;     ///< how much of the variance each factor explains, instead of statistics
     bool json;            ///< as JSON (docs/command.md), in full precision
+    unsigned char index;  ///< an ld_index: the sensitivities shown, and by which they are sorted
     const char *measured; ///< a CSV file of measured launches, beside which its results are shown
                           ///< instead (docs/study.md): differences with intervals and p; NULL: none
     const char *against;  ///< a point of the sweep, by its number or as KEY=VALUE,...: how far the
@@ -127,6 +136,8 @@ typedef struct ld_study_question {
     const char *statistic; ///< "mean" (NULL), "deviation", "quantile:P", "share:>LIMIT",
                            ///< "share:<LIMIT", "footprint[:SHARE]" (docs/study.md)
     bool map;              ///< two keys as a map, however few values the second one has
+    bool sensitivity;      ///< bars of the factors instead, of each point
+    unsigned char index;   ///< an ld_index: by which they are sorted
     const void *reserved[3]; ///< NULL: room for what later versions may be asked
 } ld_study_question;
 

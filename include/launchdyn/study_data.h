@@ -93,6 +93,25 @@ ld_status ld_study_data_statistics(ld_study_data *data, int point, const char *n
 ld_status ld_study_data_sensitivity(ld_study_data *data, int point, const char *result,
                                     const char *factor, ld_estimate *share, ld_error *error);
 
+/// What one factor does to a result (docs/study.md); what the plan of the samples does not give is
+/// NaN.
+typedef struct ld_study_influence {
+    const char *factor;   ///< its path
+    ld_estimate first;    ///< first-order index; of other plans than saltelli a regression's
+    ld_estimate total;    ///< total index, plan saltelli
+    ld_estimate together; ///< total less first: the share that it makes with other factors
+    ld_estimate mu_star;  ///< mean magnitude of its elementary effects, plan morris
+    ld_estimate mu;       ///< their mean
+    double sigma;         ///< their deviation
+    size_t count, groups; ///< rows or effects, of each rocket; independent groups
+} ld_study_influence;
+
+/// Of all factors on a result, the greatest total index, first-order one or mu_star first.
+/// @param list [*count] the data's own, until the next call that reads
+/// @return as ld_study_data_values()
+ld_status ld_study_data_influences(ld_study_data *data, int point, const char *result,
+                                   const ld_study_influence **list, size_t *count, ld_error *error);
+
 /// A footprint, for range safety: the region in which a share of landings lies (docs/study.md).
 typedef struct ld_study_footprint {
     double share;         ///< of further landings that lie within, on average

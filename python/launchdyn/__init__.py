@@ -25,7 +25,7 @@ from .result import Column, History, Quantity, Result, Summary
 from .scenario import Scenario
 from .simulation import (BaseFrame, Event, EventKind, Mode, Pole, Run, Simulation, VehicleRun,
                          Wrench)
-from .study import (Cell, Cells, Counts, Estimate, Footprint, Point, Statistics, Study,
+from .study import (Cell, Cells, Counts, Estimate, Footprint, Influence, Point, Statistics, Study,
                     StudyColumn, StudyData, merge_shards, write_report)
 from .views import View, draw, figures
 
@@ -38,11 +38,11 @@ def library_version() -> str:
 __all__ = [
     "BaseFrame", "Cell", "Cells", "Column", "ComparedResult", "ComparedSeries", "Comparison",
     "Counts", "Derivative", "Estimate", "Event", "EventKind", "FileError", "Fit", "FittedKey",
-    "Footprint", "History", "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError",
-    "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode", "NumericError",
-    "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run", "Scatter", "Scenario",
-    "Sensitivity", "Simulation", "Statistics", "Status", "Strength", "Study", "StudyColumn",
-    "StudyData", "Summary", "UnknownName", "Validation", "VehicleRun", "View", "Wrench",
-    "__version__", "compare", "draw", "figures", "fit", "keys", "library_version", "merge_shards",
-    "sensitivity", "write_report",
+    "Footprint", "History", "Influence", "InputError", "Interrupted", "Key", "LaunchError",
+    "LaunchdynError", "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode",
+    "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run",
+    "Scatter", "Scenario", "Sensitivity", "Simulation", "Statistics", "Status", "Strength",
+    "Study", "StudyColumn", "StudyData", "Summary", "UnknownName", "Validation", "VehicleRun",
+    "View", "Wrench", "__version__", "compare", "draw", "figures", "fit", "keys",
+    "library_version", "merge_shards", "sensitivity", "write_report",
 ]

@@ -9,7 +9,7 @@ import ctypes
 import os
 import sysconfig
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int,
-                    c_int64, c_size_t, c_void_p)
+                    c_int64, c_size_t, c_ubyte, c_void_p)
 from pathlib import Path
 from typing import Any, Iterator
 
@@ -128,8 +128,8 @@ class ld_derivative_options(Structure):
 
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
-                ("measured", c_char_p), ("against", c_char_p), ("csv", c_char_p),
-                ("over", c_char_p)]
+                ("index", c_ubyte), ("measured", c_char_p), ("against", c_char_p),
+                ("csv", c_char_p), ("over", c_char_p)]
 
 
 class ld_study_column(Structure):
@@ -155,6 +155,12 @@ class ld_study_statistics(Structure):
     _fields_ = [("count", c_size_t), ("groups", c_size_t), ("mean", ld_estimate),
                 ("deviation", ld_estimate), ("skewness", c_double), ("least", c_double),
                 ("greatest", c_double), ("quantile", ld_estimate * 3)]
+
+
+class ld_study_influence(Structure):
+    _fields_ = [("factor", c_char_p), ("first", ld_estimate), ("total", ld_estimate),
+                ("together", ld_estimate), ("mu_star", ld_estimate), ("mu", ld_estimate),
+                ("sigma", c_double), ("count", c_size_t), ("groups", c_size_t)]
 
 
 class ld_study_footprint(Structure):
@@ -427,6 +433,9 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
                                          POINTER(POINTER(ld_study_statistics)), _error]),
     "ld_study_data_footprint": (c_int, [_handle, c_int, c_double,
                                         POINTER(POINTER(ld_study_footprint)), _error]),
+    "ld_study_data_influences": (c_int, [_handle, c_int, _text,
+                                         POINTER(POINTER(ld_study_influence)), POINTER(c_size_t),
+                                         _error]),
     "ld_study_data_pool": (c_int, [_handle, POINTER(ld_study_over),
                                    POINTER(POINTER(ld_study_cell)), POINTER(c_size_t), _error]),
     "ld_study_data_sensitivity": (c_int, [_handle, c_int, _text, _text, POINTER(ld_estimate),

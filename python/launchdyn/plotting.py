@@ -137,6 +137,32 @@ def _draw_over(at: Any, cells: Cells, against: Optional[str], statistic: str,
     at.grid(alpha=0.3)
 
 
+def plot_influences(data: StudyData, names: Sequence[str], ax: Any,
+                    style: Mapping[str, Any]) -> Any:
+    """StudyData.plot() of sensitivities: a bar for each factor, the greatest on top."""
+    if not names:
+        raise ValueError("no results given; `results` lists them")
+    axes, columns = _axes(len(names), ax, share=False), data.columns
+    for at, name in zip(axes, names):
+        found = data.influences(name)
+        kinds = [("mu*", "mu_star")] if any(f.mu_star.value == f.mu_star.value for f in found) \
+            else [("total", "total"), ("first order", "first")]
+        for k, (label, kind) in enumerate(kinds):
+            bars = [(i, getattr(f, kind)) for i, f in enumerate(found)]
+            bars = [(i, e) for i, e in bars if e.value == e.value]
+            ends = [[e.value - e.low for _, e in bars], [e.high - e.value for _, e in bars]]
+            if bars:
+                at.barh([i + (k - 0.5) * 0.4 * (len(kinds) - 1) for i, _ in bars],
+                        [e.value for _, e in bars], 0.8 / len(kinds), xerr=ends, label=label,
+                        **style)
+        at.set_yticks(range(len(found)), [f.factor for f in found])
+        at.invert_yaxis()
+        _label(at.xaxis, *((f"mu* of {name}", columns[name].unit) if len(kinds) == 1
+                           else (f"share of the variance of {name}", "")))
+        at.legend()
+    return axes[0] if len(axes) == 1 else axes
+
+
 def plot_over(data: StudyData, names: Sequence[str], keys: Sequence[str], against: Optional[str],
               statistic: str, ax: Any, style: Mapping[str, Any]) -> Any:
     """StudyData.plot() over swept keys."""

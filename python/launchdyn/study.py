@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from ._interrupt import Interrupt
 from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_study_counts,
-                       ld_study_cell, ld_study_footprint, ld_study_options, ld_study_over,
-                       ld_study_statistics, ld_study_values,
+                       ld_study_cell, ld_study_footprint, ld_study_influence, ld_study_options,
+                       ld_study_over, ld_study_statistics, ld_study_values,
                        ld_study_view, library)
 from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 PathLike = Union[str, "os.PathLike[str]"]
 #: How often, in seconds, the program that waits for a study looks up.
 LOOK_UP = 0.1
+_INDICES = ("total", "first", "morris")
 
 
 class Counts(NamedTuple):
@@ -77,6 +78,22 @@ class Footprint:
     content: Estimate  #: share of further landings that lie within
     area: Estimate  #: [m2]
     distance: Estimate  #: [m] from the launch point to the farthest point
+
+
+@dataclass(frozen=True)
+class Influence:
+    """What a factor does to a result (docs/study.md); what the plan of the samples does not give is
+    NaN. Effects in SI."""
+
+    factor: str  #: its path
+    first: Estimate  #: first-order index; of other plans than saltelli a regression's
+    total: Estimate  #: total index, plan saltelli
+    together: Estimate  #: total less first: the share that it makes with other factors
+    mu_star: Estimate  #: mean magnitude of its elementary effects, plan morris
+    mu: Estimate  #: their mean
+    sigma: float  #: their deviation
+    count: int  #: rows or effects, of each rocket
+    groups: int  #: independent ones
 
 
 @dataclass(frozen=True)
@@ -391,6 +408,20 @@ class StudyData(Held):
                 ctypes.byref(error)), error)
         return _estimate(share)
 
+    def influences(self, result: str, point: int = 1) -> list[Influence]:
+        """What each factor does to a result, the greatest first: Sobol indices of the plan
+        saltelli, elementary effects of the plan morris, else first-order indices."""
+        error, count = ld_error(), ctypes.c_size_t()
+        found = ctypes.POINTER(ld_study_influence)()
+        tell_renamed(result)
+        with self._lock:
+            check_name(library.ld_study_data_influences(
+                self._pointer, point, coded(result), ctypes.byref(found), ctypes.byref(count),
+                ctypes.byref(error)), error)
+            return [Influence(text_of(f.factor), *map(_estimate, (f.first, f.total, f.together,
+                                                               f.mu_star, f.mu)),
+                              f.sigma, f.count, f.groups) for f in found[:count.value]]
+
     def footprint(self, share: float, point: int = 1) -> Footprint:
         """The footprint of a point's landings, of a share of 0.95, 0.99 or 0.999."""
         error, found = ld_error(), ctypes.POINTER(ld_study_footprint)()
@@ -468,16 +499,20 @@ class StudyData(Held):
 
     # ---- to look at
 
-    def show(self, what: Optional[str] = None, sensitivity: bool = False,
+    def show(self, what: Optional[str] = None, sensitivity: Union[bool, str] = False,
              measured: Optional[PathLike] = None, against: Optional[str] = None,
              over: Union[str, Sequence[str], None] = None,
              statistic: Optional[str] = None) -> str:
         """The tables that `launchdyn study show` prints, of results by name or "all"; compared with
         the `measured` launches of a CSV file; how far points of the sweep are from one, `against`;
         or a row for each value of one swept key or two, `over`, pooled over the others, of means
-        and deviations or of one `statistic`."""
+        and deviations or of one `statistic`. `sensitivity` may name what the plan of the samples
+        gives: "total", "first", "morris"."""
+        if isinstance(sensitivity, str) and sensitivity not in _INDICES:
+            raise ValueError(f"sensitivity: found {sensitivity!r}, expected one of {_INDICES}")
+        index = 1 + _INDICES.index(sensitivity) if isinstance(sensitivity, str) else 0
         error, view = ld_error(), ld_study_view(
-            what=coded(what) if what else None, sensitivity=sensitivity,
+            what=coded(what) if what else None, sensitivity=bool(sensitivity), index=index,
             measured=coded_path(measured) if measured else None,
             against=coded(against) if against else None,
             over=coded(over if isinstance(over, str) else ",".join(over)) if over else None)
@@ -508,13 +543,15 @@ class StudyData(Held):
                                                     ctypes.byref(error)), error)
 
     def plot(self, *names: str, over: Union[str, Sequence[str], None] = None,
-             against: Optional[str] = None, statistic: Optional[str] = None, ax: Any = None,
-             **style: Any) -> Any:
+             against: Optional[str] = None, statistic: Optional[str] = None,
+             sensitivity: bool = False, ax: Any = None, **style: Any) -> Any:
         """Draws, by matplotlib, how results scatter: histograms, a colour for each point of the
         sweep; `over` a factor as points. `over` one swept key or two: over()'s estimates with
-        their intervals, a curve for each value of the second key. Returns the axes, or a list of
-        them."""
-        from .plotting import plot_over, plot_study
+        their intervals, a curve for each value of the second key. `sensitivity`: influences() as
+        bars. Returns the axes, or a list of them."""
+        from .plotting import plot_influences, plot_over, plot_study
+        if sensitivity:
+            return plot_influences(self, names, ax, style)
         keys = (over,) if isinstance(over, str) else tuple(over or ())
         if against or statistic or len(keys) > 1 or set(keys) & set(self.swept):
             return plot_over(self, names, keys, against, statistic or "mean", ax, style)

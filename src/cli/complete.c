@@ -215,6 +215,8 @@ static const command_option *previous_option(const command_option *options)
     const command_option *waits = NULL;
     for (int i = 1; i + 1 < line.count; i++) {
         const char *word = line.word[i];
+        if (waits && waits->kind == OPTION_WORD && !option_has_word(waits, word))
+            waits = NULL;
         const command_option *option = waits ? NULL : find_option(options, word);
         if (!waits && !option && line.given_count < MOST_WORDS)
             line.given[line.given_count++] = word;
@@ -274,9 +276,11 @@ void complete_print(const command *self, const command_option *options)
     const command_option *option = previous_option(options);
     const char *equals = strchr(line.last, '=');
     size_t from = equals ? (size_t)(equals + 1 - line.last) : 0;
-    if (option) {
+    if (option)
         offer_argument(self, option, 0);
-    } else if (strncmp(line.last, "--", 2) == 0 && equals) {
+    if (option && option->kind != OPTION_WORD)
+        return;
+    if (strncmp(line.last, "--", 2) == 0 && equals) {
         option = find_option(options, line.last);
         if (option && option->argument)
             offer_argument(self, option, from);

@@ -66,8 +66,33 @@ static ld_status add_text(command_line *line, int argc, char ***texts, ld_error 
     return LD_OK;
 }
 
+bool option_has_word(const command_option *option, const char *text)
+{
+    const size_t length = strlen(text);
+    for (const char *word = option->argument; word; word = strchr(word, '|')) {
+        word += *word == '|';
+        if (strcspn(word, "|") == length && strncmp(word, text, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+// "--name=word", "--name word", or without the word.
+static ld_status take_word(const command_option *option, int argc, char **argv, ld_error *error)
+{
+    static char none[] = "";
+    char **value = option->value;
+    if (optarg && !option_has_word(option, optarg))
+        return ld_fail(error, LD_ERR_INPUT, "--%s: found %s, expected %s", option->name, optarg,
+                       option->argument);
+    if (!optarg && optind < argc && option_has_word(option, argv[optind]))
+        optarg = argv[optind++];
+    *value = optarg ? optarg : none;
+    return LD_OK;
+}
+
 // Takes what stands after an option.
-static ld_status read_value(command_line *line, int argc, const command_option *option,
+static ld_status read_value(command_line *line, int argc, char **argv, const command_option *option,
                             ld_error *error)
 {
     switch (option->kind) {
@@ -92,6 +117,8 @@ static ld_status read_value(command_line *line, int argc, const command_option *
     case OPTION_MILLISECONDS:
     case OPTION_HERTZ:
         return take_number(option, error);
+    case OPTION_WORD:
+        return take_word(option, argc, argv, error);
     }
     return LD_OK;
 }
@@ -106,8 +133,10 @@ static void make_tables(const command_option *options, struct option *by_name, c
     for (; options[count].name; count++) {
         const command_option *o = &options[count];
         assert(count < MOST_OPTIONS);
-        by_name[count] = (struct option){o->name, o->argument ? required_argument : no_argument,
-                                         NULL, LONG + count};
+        int takes = o->kind == OPTION_WORD ? optional_argument
+                    : o->argument          ? required_argument
+                                           : no_argument;
+        by_name[count] = (struct option){o->name, takes, NULL, LONG + count};
         if (o->letter)
             letters += sprintf(letters, o->argument ? "%c:" : "%c", o->letter);
     }
@@ -154,7 +183,7 @@ ld_status options_read(command_line *line, int argc, char **argv, const command_
         else if (found == '?' || found == ':')
             status = refuse_word(options, found, argv[optind - 1], error);
         else
-            status = read_value(line, argc, find(options, found), error);
+            status = read_value(line, argc, argv, find(options, found), error);
     for (; !status && !line->help && optind < argc; optind++) // after "--"
         argv[++line->count] = argv[optind];
     return status;
@@ -176,11 +205,13 @@ static int option_text(const command_option *o, char *text, size_t size)
     char letter[4] = "   ";
     if (o->letter)
         snprintf(letter, sizeof letter, "-%c,", o->letter);
-    return snprintf(text, size, "  %s --%s%s%s", letter, o->name,
+    const bool word = o->kind == OPTION_WORD;
+    return snprintf(text, size, "  %s --%s%s%s%s", letter, o->name,
                     !o->argument              ? ""
+                    : word                    ? "[="
                     : o->kind == OPTION_TEXTS ? " "
                                               : "=",
-                    o->argument ? o->argument : "");
+                    o->argument ? o->argument : "", word ? "]" : "");
 }
 
 void print_wrapped(const char *text, int column)

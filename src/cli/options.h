@@ -17,7 +17,8 @@ typedef enum option_kind {
     OPTION_METRES,
     OPTION_MILLIMETRES,
     OPTION_MILLISECONDS,
-    OPTION_HERTZ
+    OPTION_HERTZ,
+    OPTION_WORD // one of the words of `argument`, "one|other", or without it ""
 } option_kind;
 
 // A row of the table; one without a name ends it.
@@ -45,6 +46,9 @@ typedef struct command_line {
 ld_status options_read(command_line *line, int argc, char **argv, const command_option *options,
                        ld_error *error);
 void options_end(command_line *line);
+
+// Whether the text is a word that an option of kind OPTION_WORD takes.
+bool option_has_word(const command_option *option, const char *text);
 
 // Prints text from a column on, broken at blanks before column 79, and ends the line.
 void print_wrapped(const char *text, int column);

@@ -106,9 +106,10 @@ static void print_option(const command_option *option)
     print_roff(option->name, strlen(option->name));
     fputs("\\fR", stdout);
     if (option->argument) {
-        fputs(option->kind == OPTION_TEXTS ? " \\fI" : "=\\fI", stdout);
+        const bool word = option->kind == OPTION_WORD;
+        fputs(option->kind == OPTION_TEXTS ? " \\fI" : word ? "[=\\fI" : "=\\fI", stdout);
         print_roff(option->argument, strlen(option->argument));
-        fputs("\\fR", stdout);
+        fputs(word ? "\\fR]" : "\\fR", stdout);
     }
     putchar('\n');
     print_prose(option->help);

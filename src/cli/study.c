@@ -64,7 +64,7 @@ int study_run_all(const ld_study *study, const study_wishes *wishes, study_runne
         printf("the stopping rule is %s after %lld samples\n", counts.enough ? "met" : "not met",
                (long long)counts.samples);
     if (!status && !command_is_quiet() && !wishes->shards && !wishes->join)
-        status = ld_study_show(wishes->run.folder, NULL, stdout, &error);
+        status = ld_study_show(wishes->run.folder, &wishes->view, stdout, &error);
     if (status)
         return command_fail(status, &error);
     return counts.done > 0 && counts.failed == counts.done ? report_all_failed(&counts) : 0;
@@ -103,10 +103,35 @@ static int study_do(ld_study *study, study_wishes *wishes)
     return code;
 }
 
+// The overrides that give the samples the plan for these sensitivities, and after them those given;
+// to be freed. NULL: no memory.
+static char **with_plan(char **sets, ld_index index)
+{
+    static char saltelli[] = "scatter.plan=saltelli", morris[] = "scatter.plan=morris",
+                one[] = "scatter.replicates=1"; // not those of hypercubes
+    size_t count = 0;
+    while (sets && sets[count])
+        count++;
+    char **all = calloc(count + 3, sizeof *all);
+    if (!all)
+        return NULL;
+    const size_t own = index == LD_INDEX_MORRIS ? 1 : 2;
+    all[0] = index == LD_INDEX_MORRIS ? morris : saltelli;
+    all[1] = one;
+    for (size_t i = 0; i <= count; i++)
+        all[own + i] = i < count ? sets[i] : NULL;
+    return all;
+}
+
 static int study_file(const char *file, study_wishes *wishes)
 {
     ld_study *study = NULL;
-    ld_status status = command_read_study(file, wishes->run.sets, &study);
+    const ld_index index = (ld_index)wishes->view.index;
+    char **planned = index ? with_plan(wishes->run.sets, index) : NULL;
+    if (index && !planned)
+        return command_code(LD_ERR_MEMORY);
+    ld_status status = command_read_study(file, index ? planned : wishes->run.sets, &study);
+    free(planned);
     return status ? command_code(status) : study_do(study, wishes);
 }
 
@@ -181,12 +206,18 @@ static int study_plot(const char *folder, const study_wishes *wishes)
                                         .over = view->over,
                                         .against = view->against,
                                         .statistic = wishes->statistic,
-                                        .map = wishes->map};
+                                        .map = wishes->map,
+                                        .sensitivity = view->sensitivity,
+                                        .index = view->index};
     char file[4096];
     ld_error error;
-    if (view->sensitivity || view->json || view->measured || wishes->csv) {
-        command_complain("study plot takes --what, --over, --and, --against, --statistic, --map "
-                         "and --out");
+    if (view->json || view->measured || wishes->csv) {
+        command_complain("study plot takes --what, --over, --and, --against, --statistic, --map, "
+                         "--sensitivity and --out");
+        return EXIT_INPUT;
+    }
+    if (view->sensitivity && (view->over || view->against || wishes->statistic || wishes->map)) {
+        command_complain("study plot --sensitivity takes --what and --out");
         return EXIT_INPUT;
     }
     snprintf(file, sizeof file, "%s%s", wishes->run.folder ? wishes->run.folder : folder,
@@ -258,8 +289,12 @@ static const char *wrong_to_run(const char *file, const char *again, const study
     if (wishes->csv || wishes->hdf5 || wishes->footprint)
         return "--csv, --hdf5 and --footprint require study export DIR";
     const ld_study_view *view = &wishes->view;
-    if (view->what || view->sensitivity || view->json || view->measured || view->against)
-        return "--what, --sensitivity, --json, --measured and --against require study show DIR";
+    if (view->what || view->json || view->measured || view->against)
+        return "--what, --json, --measured and --against require study show DIR";
+    if (view->sensitivity && view->index == LD_INDEX_USUAL)
+        return "--sensitivity requires total, first or morris, or study show DIR";
+    if (view->sensitivity && again)
+        return "--sensitivity excludes --again FOLDER, which repeats the plan stored in FOLDER";
     if (view->over || wishes->and_over || wishes->statistic || wishes->map)
         return "--over, --and, --statistic and --map require study show DIR or study plot DIR";
     if (wishes->shards && wishes->only != ALL_SAMPLES)
@@ -275,6 +310,16 @@ static const char *wrong_to_run(const char *file, const char *again, const study
     return NULL;
 }
 
+// Of "total", "first", "morris"; all others the usual.
+static ld_index index_of(const char *word)
+{
+    static const char *const words[] = {"", "total", "first", "morris"};
+    int index = word ? LD_INDEX_MORRIS : LD_INDEX_USUAL;
+    while (index > LD_INDEX_USUAL && strcmp(word, words[index]) != 0)
+        index--;
+    return (ld_index)index;
+}
+
 // "KEY,KEY"; NULL: none.
 static const char *join_keys(study_wishes *wishes)
 {
@@ -288,8 +333,9 @@ static const char *join_keys(study_wishes *wishes)
 int command_study(const command *self, int argc, char **argv)
 {
     study_wishes wishes = {.threads = 1, .only = ALL_SAMPLES};
-    char *shard = NULL, *what = NULL, *measured = NULL, *against = NULL, *again = NULL;
-    int sensitivity = 0, json = 0;
+    char *shard = NULL, *what = NULL, *measured = NULL, *against = NULL, *again = NULL,
+         *sensitivity = NULL;
+    int json = 0;
     const command_option options[] = {
         STUDY_OPTIONS(&wishes),
         {"again", '\0', OPTION_TEXT, &again,
@@ -307,8 +353,11 @@ int command_study(const command *self, int argc, char **argv)
          "process, in seconds (60)",
          "S"},
         {"what", 'w', OPTION_TEXT, &what, "For show, plot: results, or all", "NAME,..."},
-        {"sensitivity", '\0', OPTION_FLAG, &sensitivity,
-         "For show: share of the variance that each factor explains", NULL},
+        {"sensitivity", '\0', OPTION_WORD, &sensitivity,
+         "Run with the plan for these sensitivities: total and first-order Sobol indices, or "
+         "Morris's elementary effects; for show, plot: print or draw them, without a word those of "
+         "the samples",
+         "total|first|morris"},
         {"json", '\0', OPTION_FLAG, &json, "For show: print as JSON, in full precision", NULL},
         {"measured", '\0', OPTION_TEXT, &measured,
          "For show: compare the results with the measured launches in this CSV file", "FILE"},
@@ -341,7 +390,8 @@ int command_study(const command *self, int argc, char **argv)
         const char *file = line.count > 0 ? line.word[0] : NULL;
         command_tell_renamed(what);
         wishes.view = (ld_study_view){.what = what,
-                                      .sensitivity = sensitivity,
+                                      .sensitivity = sensitivity != NULL,
+                                      .index = (unsigned char)index_of(sensitivity),
                                       .json = json,
                                       .measured = measured,
                                       .against = against,

@@ -55,19 +55,27 @@ static bool drawable(const drawn_curve *drawn, size_t i)
     return isfinite(drawn->line.x[i]) && isfinite(drawn->line.y[i]);
 }
 
-// By the interval of a dot.
-static void widen(const chart_curve *curve, size_t i, double factor, double y[2])
+// By the interval of a dot or a bar, which begins at 0.
+static void widen(const chart_curve *curve, size_t i, double factor, double range[2])
 {
-    if (!curve->dots || !isfinite(curve->low[i]) || !isfinite(curve->high[i]))
+    if (curve->bar > 0)
+        range[0] = fmin(range[0], 0), range[1] = fmax(range[1], 0);
+    if (!curve->low || !isfinite(curve->low[i]) || !isfinite(curve->high[i]))
         return;
-    y[0] = fmin(y[0], curve->low[i] * factor);
-    y[1] = fmax(y[1], curve->high[i] * factor);
+    range[0] = fmin(range[0], curve->low[i] * factor);
+    range[1] = fmax(range[1], curve->high[i] * factor);
+}
+
+static bool has_bars(const chart *self)
+{
+    return self->count > 0 && self->curve[0].bar > 0;
 }
 
 // Words have half a place each to both sides; dots stand clear of the axes.
 static void room_beside(const chart *self, double x[2])
 {
-    double room = x[1] > x[0] && self->count > 0 && self->curve[0].dots ? 0.03 * (x[1] - x[0]) : 0;
+    bool apart = self->count > 0 && (self->curve[0].dots || has_bars(self));
+    double room = x[1] > x[0] && apart ? 0.03 * (x[1] - x[0]) : 0;
     x[0] -= room, x[1] += room;
     if (self->x_words.count > 0)
         x[0] = -0.5, x[1] = self->x_words.count - 0.5;
@@ -84,7 +92,10 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
             if (!self->curve[j].faint && drawable(drawn, i)) {
                 x[0] = fmin(x[0], drawn->line.x[i]), x[1] = fmax(x[1], drawn->line.x[i]);
                 y[0] = fmin(y[0], drawn->line.y[i]), y[1] = fmax(y[1], drawn->line.y[i]);
-                widen(&self->curve[j], i, self->y_factor, y);
+                if (self->curve[j].bar > 0)
+                    widen(&self->curve[j], i, self->x_factor, x);
+                else
+                    widen(&self->curve[j], i, self->y_factor, y);
             }
     }
     if (self->levelled)
@@ -100,17 +111,21 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
     if (self->log_y && self->decades > 0)
         y[0] = fmax(y[0], y[1] - self->decades);
     y[0] -= room, y[1] += room;
+    if (has_bars(self)) // the first on top
+        y[0] = self->y_words.count - 0.5, y[1] = -0.5;
 }
 
-// Of a dot the ends of its interval, too; without one those are the dot.
+// Of a dot or bar the ends of its interval, too; without one those are the dot.
 static void write_point(FILE *script, const chart *self, const chart_curve *curve, size_t i)
 {
-    double y = curve->y[i] * self->y_factor;
-    fprintf(script, curve->dots ? "%.9g %.9g" : "%.6g %.6g", curve->x[i] * self->x_factor, y);
-    if (curve->dots) {
+    double x = curve->x[i] * self->x_factor, y = curve->y[i] * self->y_factor;
+    fprintf(script, curve->low ? "%.9g %.9g" : "%.6g %.6g", x, y);
+    if (curve->low) {
         bool known = isfinite(curve->low[i]) && isfinite(curve->high[i]);
-        fprintf(script, " %.9g %.9g", known ? curve->low[i] * self->y_factor : y,
-                known ? curve->high[i] * self->y_factor : y);
+        double factor = curve->bar > 0 ? self->x_factor : self->y_factor;
+        double middle = curve->bar > 0 ? x : y;
+        fprintf(script, " %.9g %.9g", known ? curve->low[i] * factor : middle,
+                known ? curve->high[i] * factor : middle);
     }
     fputc('\n', script);
 }
@@ -132,7 +147,7 @@ static void write_data(FILE *script, size_t index, int j, const drawn_curve *dra
             last++;
         plot_thin(&drawn->line, first, last);
         for (size_t i = first; i <= last; i++)
-            if (drawn->line.keep[i] || self->curve[j].dots) {
+            if (drawn->line.keep[i] || self->curve[j].low) {
                 write_point(script, self, &self->curve[j], i);
                 lines++;
             }
@@ -228,6 +243,21 @@ static void write_title(FILE *script, const chart_curve *curve)
     }
 }
 
+// Bars with a whisker each.
+static void write_bars(FILE *script, const chart_curve *curve, size_t index, int j, int style,
+                       const char *before)
+{
+    fprintf(
+        script,
+        "%s $c%zud%d using 1:2:(0):1:($2-%g):($2+%g) with boxxyerror ls %d fs solid 1 noborder ",
+        before, index, j, 0.5 * curve->bar, 0.5 * curve->bar, style);
+    write_title(script, curve);
+    fprintf(script,
+            ", \\\n    $c%zud%d using 1:2:3:4 with xerrorbars pt 7 ps 0.1 lw 1 lc rgb '#404040' "
+            "notitle",
+            index, j);
+}
+
 // A line; of dots with their intervals one below them, where the axis has numbers.
 static void write_plot(FILE *script, const chart *self, size_t index)
 {
@@ -236,6 +266,12 @@ static void write_plot(FILE *script, const chart *self, size_t index)
     for (int j = 0; j < self->count; j++) {
         const chart_curve *curve = &self->curve[j];
         style -= curve->again;
+        if (curve->bar > 0) {
+            write_bars(script, curve, index, j, style, before);
+            before = ", \\\n    ";
+            style++;
+            continue;
+        }
         if (!curve->dots || self->x_words.count == 0) {
             fprintf(script, "%s $c%zud%d using 1:2 with lines ", before, index, j);
             before = ", \\\n    ";
@@ -283,12 +319,14 @@ static double bottom_of(const chart *self)
 
 static double left_of(const chart *self)
 {
-    return fmax(LEFT, fmin(widest(&self->y_words), 200) + 34);
+    return fmax(LEFT, fmin(widest(&self->y_words), has_bars(self) ? 300 : 200) + 34);
 }
 
+// Many bars require more height.
 static double height_of(const chart *self)
 {
-    return HEIGHT - BOTTOM + bottom_of(self);
+    const double bars = has_bars(self) ? 21. * self->y_words.count : 0;
+    return fmax(HEIGHT - BOTTOM, bars + TOP) + bottom_of(self);
 }
 
 // The axes' place: of the chart whose upper edge is `above` pixels down.

@@ -16,7 +16,8 @@ typedef struct chart_curve {
     const double *x, *y;      // [count]; a gap where one is not finite
     bool faint;               // grey and thin, its label beside its end
     bool dots;                // a dot at each point, with its interval where that is finite
-    const double *low, *high; // [count] of dots
+    const double *low, *high; // [count] of dots; of bars along x
+    double bar;               // height of bars from 0 to x, of the place that a word has; 0: none
     bool again;               // looks as the one before it, and is not in the key
 } chart_curve;
 

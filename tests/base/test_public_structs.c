@@ -58,6 +58,7 @@ SIZE(ld_quantity, 32);
 SIZE(ld_study_cell, 96);
 SIZE(ld_study_column, 24);
 SIZE(ld_study_footprint, 104);
+SIZE(ld_study_influence, 152);
 SIZE(ld_study_point, 40);
 SIZE(ld_study_statistics, 160);
 SIZE(ld_study_values, 32);

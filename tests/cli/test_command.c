@@ -116,15 +116,23 @@ static void test_wrong_words_of_a_study(void **state)
     expect_complaint(STUDY "-j 0", 2, "--jobs: expected a number from 1 to 1024\n");
     expect_complaint(STUDY "-j 1000000", 2, "--jobs: expected a number from 1 to 1024\n");
     expect_complaint(STUDY "--csv x.csv", 2, "require study export DIR\n");
-    expect_complaint(STUDY "--sensitivity", 2, "require study show DIR\n");
+    expect_complaint(STUDY "--sensitivity", 2,
+                     "--sensitivity requires total, first or morris, or study show DIR\n");
+    expect_complaint(STUDY "--sensitivity=all", 2,
+                     "--sensitivity: found all, expected total|first|morris\n");
+    expect_complaint("launchdyn study --again x --out y --sensitivity total", 2,
+                     "--sensitivity excludes --again FOLDER, which repeats the plan stored in "
+                     "FOLDER\n");
+    expect_complaint("launchdyn study plot x --sensitivity first --over base.speed", 2,
+                     "study plot --sensitivity takes --what and --out\n");
     expect_complaint(STUDY "--measured x.csv", 2, "require study show DIR\n");
     expect_complaint("launchdyn study show x --measured x.csv --over base.speed", 2,
                      "--measured excludes --sensitivity, --against, --over and --statistic\n");
     expect_complaint("launchdyn study show x --and base.speed", 2, "--and requires --over KEY\n");
     expect_complaint("launchdyn study show x --map", 2, "--map requires study plot DIR\n");
     expect_complaint("launchdyn study plot x --json", 2,
-                     "study plot takes --what, --over, --and, --against, --statistic, --map and "
-                     "--out\n");
+                     "study plot takes --what, --over, --and, --against, --statistic, --map, "
+                     "--sensitivity and --out\n");
     expect_complaint(STUDY "--map", 2,
                      "--over, --and, --statistic and --map require study show DIR or study plot "
                      "DIR\n");

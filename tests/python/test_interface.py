@@ -15,7 +15,8 @@ POINTER = "pointer"
 SCALARS = {"double": ctypes.c_double, "int": ctypes.c_int, "ld_status": ctypes.c_int,
            "ld_fmu_part": ctypes.c_int, "ld_event_kind": ctypes.c_int,
            "ld_verdict": ctypes.c_int, "size_t": ctypes.c_size_t,
-           "bool": ctypes.c_bool, "int64_t": ctypes.c_int64, "void": None}
+           "bool": ctypes.c_bool, "int64_t": ctypes.c_int64,
+           "unsigned char": ctypes.c_ubyte, "void": None}
 
 
 def kind_in_c(declared):

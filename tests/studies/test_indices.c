@@ -292,10 +292,11 @@ static void find_effects(const known_function *f, int of, double truth[4])
 static void take_effects(const known_function *f, const ld_scatter *scatter, int of, double *effect)
 {
     for (int i = 0; i < scatter->samples; i++) {
-        int turn = draw_turn(scatter, i + 1, of), row = plan_row(scatter);
+        int turn = draw_turn(scatter->seed, f->factors, i + 1, of), row = plan_row(scatter);
         int64_t run = (int64_t)i * row + turn + 1;
         double way = draw_uniform(scatter, &factor[of], run + 1, 0) -
                      draw_uniform(scatter, &factor[of], run, 0);
+        assert_true(fabs(way - draw_step(scatter->seed, factor[of].path, i + 1)) < 1e-15);
         assert_true(fabs(fabs(way) - 0.6) < 1e-15);
         for (int k = 0; k < f->factors; k++)
             if (k != of)

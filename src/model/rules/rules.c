@@ -721,7 +721,7 @@ static void scatter_rules(const rule_set *rules)
     replicate_rules(rules);
     if (plan_has_rows(scatter) && scatter->until_count > 0)
         report_broken(rules, "scatter.until", 0,
-                      "the plans saltelli and morris run all samples; leave it out");
+                      "the plans saltelli and morris run all samples; remove the rule");
     if (plan_has_rows(scatter) && scatter->correlated_count > 0)
         report_broken(rules, "scatter.correlated", 0,
                       "the plans saltelli and morris require independent factors");

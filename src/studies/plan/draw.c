@@ -6,6 +6,9 @@
 #include "math/functions.h"
 #include "model/fields/factor.h"
 
+// How far a factor moves in a trajectory.
+static const double trajectory_step = 0.6;
+
 // What a factor's random numbers belong to.
 typedef struct draw_key {
     uint64_t seed, stream, rocket;
@@ -88,19 +91,27 @@ static double draw_point(const ld_scatter *scatter, const ld_factor *factor, con
 
 // ---- the plans for sensitivities
 
-int draw_turn(const ld_scatter *scatter, int64_t sample, int factor)
+int draw_turn(int seed, int factors, int64_t sample, int factor)
 {
-    const uint64_t key[] = {(uint64_t)scatter->seed, random_stream("morris")};
-    return (int)draw_permuted(key, (uint64_t)sample, 0, scatter->factor_count, factor);
+    const uint64_t key[] = {(uint64_t)seed, random_stream("morris")};
+    return (int)draw_permuted(key, (uint64_t)sample, 0, factors, factor);
 }
 
-// One of four levels, 0.05, 0.35, 0.65, 0.95; after its turn the one two levels away: up from the
-// two lower ones, down from the others. Rockets of a salvo go the same way.
-static double draw_level(const draw_key *key, int64_t sample, bool moved)
+// A trajectory's steps are up from the two lower levels, down from the others. Rockets of a salvo
+// go the same way.
+double draw_step(int seed, const char *path, int64_t sample)
 {
-    double way = random_uniform(key->seed, key->stream, (uint64_t)sample, 0, 2);
+    double u = random_uniform((uint64_t)seed, random_stream(path), (uint64_t)sample, 0, 2);
+    return u < 0.5 ? trajectory_step : -trajectory_step;
+}
+
+// One of four levels, 0.05, 0.35, 0.65, 0.95; after its turn the one two levels away.
+static double draw_level(const ld_scatter *scatter, const ld_factor *factor, const draw_key *key,
+                         int64_t sample, bool moved)
+{
+    bool up = draw_step(scatter->seed, factor->path, sample) > 0;
     double low = random_uniform(key->seed, key->stream, (uint64_t)sample, key->rocket, 3);
-    return (low < 0.5 ? 0.05 : 0.35) + ((way < 0.5) == moved ? DRAW_STEP : 0);
+    return (low < 0.5 ? 0.05 : 0.35) + (up == moved ? trajectory_step : 0);
 }
 
 // Whether the run has the factor's number of matrix B, or after its step.
@@ -109,8 +120,9 @@ static bool is_second(const ld_scatter *scatter, const ld_factor *factor, plan_p
     if (!plan_has_rows(scatter))
         return false;
     const int number = (int)(factor - scatter->factor);
-    return scatter->plan == LD_PLAN_SALTELLI ? at.column == 1 || at.column == number + 2
-                                             : at.column > draw_turn(scatter, at.sample, number);
+    return scatter->plan == LD_PLAN_SALTELLI
+               ? at.column == 1 || at.column == number + 2
+               : at.column > draw_turn(scatter->seed, scatter->factor_count, at.sample, number);
 }
 
 // The factor's number on its own, as if it were in no group.
@@ -126,7 +138,7 @@ static double draw_alone(const ld_scatter *scatter, const ld_factor *factor, int
     if (plan_has_points(scatter))
         return draw_point(scatter, factor, &key, at.sample, second, u);
     if (scatter->plan == LD_PLAN_MORRIS)
-        return draw_level(&key, at.sample, second);
+        return draw_level(scatter, factor, &key, at.sample, second);
     if (scatter->plan != LD_PLAN_LHS)
         return u;
     int64_t strata = plan_replicate(scatter), i = at.sample - 1;

@@ -19,12 +19,10 @@ double draw_value(const ld_factor *factor, const field_place *place, double nomi
 // How many coordinates the plan's Sobol points have for so many rockets.
 int draw_dimensions(const ld_scatter *scatter, int rockets);
 
-// How far a factor moves in a trajectory (LD_PLAN_MORRIS), as a number in (0, 1).
-#define DRAW_STEP 0.6
-
-// In which run of the trajectory `sample` (LD_PLAN_MORRIS) a factor moves, from 0: from this run to
-// the next.
-int draw_turn(const ld_scatter *scatter, int64_t sample, int factor);
+// In which run of the trajectory `sample` (LD_PLAN_MORRIS) a factor, of so many, moves: from run 0
+// to 1 or a later one. How far the factor with that path then goes, as a number in (0, 1).
+int draw_turn(int seed, int factors, int64_t sample, int factor);
+double draw_step(int seed, const char *path, int64_t sample);
 
 // A permutation of 0 ... n - 1: where `i` goes, of the permutation with that key.
 int64_t draw_permuted(const uint64_t key[2], uint64_t first, uint64_t second, int64_t n, int64_t i);

@@ -10,6 +10,7 @@
 #include "launchdyn/study.h"
 #include "quantities/study_results.h"
 #include "quantities/summary.h"
+#include "studies/show/show_influence.h"
 #include "studies/show/show_json.h"
 #include "studies/show/show_numbers.h"
 #include "studies/show/show_over.h"
@@ -318,7 +319,13 @@ static ld_status print_point(shown *self, const study_point *point, ld_error *er
     if (status)
         return status;
     if (self->view->sensitivity)
-        return print_sensitivities(self, point, error);
+        return influence_kind_of(self->data) == INFLUENCE_SHARES
+                   ? print_sensitivities(self, point, error)
+                   : show_influences(self, point, error);
+    if (self->data->plan.kind == LD_PLAN_MORRIS)
+        fputs("samples of Morris's plan: these statistics are over its levels, not over the "
+              "factors' distributions\n",
+              self->stream);
     print_statistics(self, of);
     status = print_ellipses(self, point, error);
     return status ? status : print_footprints(self, point, error);
@@ -403,7 +410,9 @@ static ld_status prepare(shown *self, ld_error *error)
             show_launches(self->stream, view->measured, &self->launches);
         return status;
     }
-    ld_status status = shown_choose(self, error);
+    ld_status status = influence_check(self->data, (ld_index)view->index, error);
+    if (!status)
+        status = shown_choose(self, error);
     if (!status && !view->against && !asks_for_rows(self))
         status = shown_compute(self, error);
     if (status || !view->against)

@@ -5,6 +5,7 @@
 #include "launchdyn/version.h"
 #include "quantities/study_results.h"
 #include "results/json.h"
+#include "studies/show/show_influence.h"
 
 enum { FORMAT = 1, MOST_FAILURES = 20 };
 
@@ -116,8 +117,10 @@ static ld_status write_results(json_writer *json, shown *self, const study_point
         json_open(json, NULL, '{');
         json_text(json, "name", self->column[i]->name);
         json_text(json, "unit", self->column[i]->unit);
-        if (self->view->sensitivity)
+        if (self->view->sensitivity && influence_kind_of(self->data) == INFLUENCE_SHARES)
             status = write_shares(json, self, point, i, error);
+        else if (self->view->sensitivity)
+            status = show_influences_json(json, self, point, i, error);
         else
             write_statistics(json, of);
         json_close(json, '}');

@@ -4,6 +4,7 @@
 
 #include "quantities/study_results.h"
 #include "studies/points/footprint.h"
+#include "studies/points/influence.h"
 #include "studies/points/over_statistic.h"
 #include "studies/statistics/sensitivity.h"
 #include "studies/store/study_data.h"
@@ -16,6 +17,7 @@ struct ld_study_data {
     footprint footprint;
     over over; // asked last, whose texts the cells have
     ld_study_cell *cell;
+    ld_study_influence *influence;
 };
 
 ld_status ld_study_data_open(const char *folder, ld_study_data **out, ld_error *error)
@@ -39,6 +41,7 @@ void ld_study_data_close(ld_study_data *self)
     study_values_free(&self->read);
     over_close(&self->over);
     free(self->cell);
+    free(self->influence);
     study_data_close(&self->data);
     free(self);
 }
@@ -125,6 +128,46 @@ ld_status ld_study_data_sensitivity(ld_study_data *self, int point, const char *
         *share =
             sensitivity_of(read->value[0], read->value[1], read->sample, read->group, read->count,
                            study_data_find(&self->data, factor, &nearest)->per_rocket);
+    return status;
+}
+
+static ld_study_influence told_of(const influence *of, influence_kind kind)
+{
+    const bool effects = kind == INFLUENCE_EFFECTS;
+    return (ld_study_influence){.factor = of->factor->name,
+                                .first = of->indices.first,
+                                .total = of->indices.total,
+                                .together = of->indices.together,
+                                .mu_star = of->effects.magnitude,
+                                .mu = of->effects.mean,
+                                .sigma = of->effects.deviation,
+                                .count = effects ? of->effects.count : of->indices.count,
+                                .groups = effects ? of->effects.groups : of->indices.groups};
+}
+
+ld_status ld_study_data_influences(ld_study_data *self, int point, const char *result,
+                                   const ld_study_influence **list, size_t *count, ld_error *error)
+{
+    const study_data *data = &self->data;
+    const char *nearest;
+    int found = 0;
+    *list = NULL;
+    *count = 0;
+    ld_status status = read_columns(self, point, &result, 1, error);
+    if (status)
+        return status;
+    influence *all = calloc((size_t)data->column_count + 1, sizeof *all);
+    free(self->influence);
+    self->influence = calloc((size_t)data->column_count + 1, sizeof *self->influence);
+    const influence_question question = {data, &data->point[point - 1],
+                                         study_data_find(data, result, &nearest), LD_INDEX_USUAL};
+    status = all && self->influence ? influences_of(&question, &self->read, all, &found, error)
+                                    : ld_fail(error, LD_ERR_MEMORY, "no memory for a study's data");
+    for (int i = 0; i < found && !status; i++)
+        self->influence[i] = told_of(&all[i], influence_kind_of(data));
+    free(all);
+    *list = status ? NULL : self->influence;
+    *count = status ? 0 : (size_t)found;
     return status;
 }
 

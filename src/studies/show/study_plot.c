@@ -8,6 +8,7 @@
 #include "figures/chart.h"
 #include "launchdyn/study.h"
 #include "studies/points/over_statistic.h"
+#include "studies/show/plot_influence.h"
 #include "studies/show/show_numbers.h"
 #include "studies/show/shown.h"
 
@@ -372,10 +373,14 @@ ld_status ld_study_plot(const char *folder, const ld_study_question *question, c
     self->question = question ? question : &usual_question;
     ld_status status = study_data_open(folder, &self->data, error);
     locale_t before = numeric_locale_enter();
-    if (!status)
-        status = open_question(self, error);
-    if (!status)
-        status = draw(self, file, error);
+    if (!status && self->question->sensitivity) {
+        status = plot_influences(&self->data, self->question, file, error);
+    } else {
+        if (!status)
+            status = open_question(self, error);
+        if (!status)
+            status = draw(self, file, error);
+    }
     numeric_locale_leave(before);
     free_picture(self);
     return status;

@@ -18,6 +18,7 @@
 typedef struct study_reader {
     study_store store;
     study_column *column;
+    int *number;
     const char **swept;
     study_point *point;
     const char **point_text; // [point_count][swept_count]
@@ -147,11 +148,14 @@ static ld_status read_scenario(study_data *data, ld_error *error)
         return status == LD_ERR_MEMORY ? no_memory(error) : LD_OK;
     }
     bool named = name_units(data, &model);
+    data->plan = (study_plan){model.scatter.plan, model.scatter.seed, model.scatter.factor_count,
+                              plan_row(&model.scatter)};
     for (int i = data->result_count; i < data->column_count; i++) {
         const ld_factor *factor = factor_named(&model, data->column[i].name);
         field_place place;
         if (!factor)
             continue;
+        self->number[i] = (int)(factor - model.scatter.factor);
         if (field_locate(&model, factor_path(factor, 0), &place, why, sizeof why) &&
             place.row->unit)
             self->column[i].unit = place.row->unit;
@@ -170,7 +174,16 @@ static ld_status list_columns(study_data *data, ld_error *error)
         status = list_table(data, "sample", true, error);
     if (!status)
         status = list_table(data, "rocket", true, error);
-    return status ? status : read_scenario(data, error);
+    if (status)
+        return status;
+    data->plan.row = 1;
+    data->reader->number = malloc(((size_t)data->column_count + 1) * sizeof(int));
+    if (!data->reader->number)
+        return no_memory(error);
+    for (int i = 0; i < data->column_count; i++)
+        data->reader->number[i] = -1;
+    data->number = data->reader->number;
+    return read_scenario(data, error);
 }
 
 // ---- points
@@ -351,6 +364,7 @@ void study_data_close(study_data *data)
         free(self->text[i]);
     free(self->text);
     free(self->column);
+    free(self->number);
     free(self->swept);
     free(self->point);
     free(self->point_text);

@@ -16,12 +16,21 @@
 typedef ld_study_column study_column;
 typedef ld_study_point study_point;
 
+// How its samples were planned; random where the scenario cannot be read.
+typedef struct study_plan {
+    ld_plan kind;
+    int seed, factors;
+    int row; // runs of a row
+} study_plan;
+
 typedef struct study_data {
     struct study_reader *reader;
+    study_plan plan;
     const char *title, *scenario, *version; // the scenario as text in SI, launchdyn's version
     int64_t strata; // samples of one Latin hypercube: they are one group; 1: random
     int column_count, result_count, swept_count, point_count;
     const study_column *column; // [column_count] results first, then factors
+    const int *number;          // [column_count] of a factor in the scenario, from 0; else -1
     const char *const *swept;   // [swept_count] paths of the swept keys
     const study_point *point;   // [point_count]
     int64_t asked;              // samples, of all points
