@@ -1,4 +1,4 @@
-#include "studies/show/plot_influence.h"
+#include "studies/pictures/plot_influence.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
 #include "base/numeric_locale.h"
 #include "figures/chart.h"
 #include "launchdyn/study.h"
+#include "studies/pictures/plot_influence.h"
 #include "studies/points/over_statistic.h"
-#include "studies/show/plot_influence.h"
 #include "studies/show/show_numbers.h"
 #include "studies/show/shown.h"
 
