@@ -2,7 +2,7 @@
 // place that is viewed.
 import { placeBeside } from "../report/labels.js";
 
-const MARGIN = 12, AXIS = 24, HEAD = 34, LINE = 15, RING = 8, FORCE_COLOUR = "#17a05d";
+const MARGIN = 12, AXIS = 24, HEAD = 34, LINE = 15, RING = 8, FORCE_COLOUR = "#17a05d", DOT_COLOUR = "#1f78d1";
 
 // The largest of 1, 2, 5 times a power of ten that is not above a value.
 export function roundBelow(value) {
@@ -85,7 +85,17 @@ function drawNames(ctx, { names: all = [], way }, width, height, ink, paper) {
   });
 }
 
-// `seen`: axes as [right, up] of the picture, pixels a metre and a newton, names of places in it; `ink`, `paper`: colours of lines and
+// What was measured of a path.
+function drawDots(ctx, dots) {
+  ctx.fillStyle = DOT_COLOUR;
+  for (const [x, y] of dots) {
+    ctx.beginPath();
+    ctx.arc(x, y, 2.5, 0, 2 * Math.PI);
+    ctx.fill();
+  }
+}
+
+// `seen`: axes as [right, up] of the picture, pixels a metre and a newton, names of places in it, dots; `ink`, `paper`: colours of lines and
 // of what is about their texts.
 export function drawGauge(canvas, seen, { ink, paper }, scale) {
   const ctx = canvas.getContext("2d"), width = canvas.width / scale, height = canvas.height / scale;
@@ -96,6 +106,7 @@ export function drawGauge(canvas, seen, { ink, paper }, scale) {
   ctx.textBaseline = "middle";
   ctx.lineWidth = 1.5;
   ctx.lineCap = "round";
+  drawDots(ctx, seen.dots ?? []);
   drawNames(ctx, seen, width, height, ink, paper);
   drawAxes(ctx, seen.axes, MARGIN + 30, height - MARGIN - 28, ink, paper);
   const { length, force } = measures(seen, Math.min(120, 0.25 * width));

@@ -3,11 +3,13 @@
 import { drawGauge } from "./gauge.js";
 import { Flight, FreeMotion, Motion } from "./motion.js";
 import { Stage } from "./stage.js";
+import { add } from "./vector.js";
 
 const SLIDER = 10000, LARGEST = 1000;
 const SPEEDS = [["auto", "automatic"], [1, "1"], [1 / 3, "1/3"], [1 / 10, "1/10"], [1 / 30, "1/30"],
   [1 / 100, "1/100"], [1 / 300, "1/300"], [1 / 1000, "1/1000"]];
 const AUTOMATIC = { before: 1, tube: 1 / 50, after: 1, flight: 4 };
+const MOST_DOTS = 200; // of a measured path
 const LONGEST = 20; // seconds that a whole flight takes at most
 
 const capital = (word) => word[0].toUpperCase() + word.slice(1);
@@ -63,6 +65,8 @@ class Replay {
     this.build(host);
     this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
     this.stage.rendered = () => this.measure();
+    this.stage.setDots(this.dots());
+    if (this.stage.dots.length > 0) this.stage.look("path"); // what was measured is what one wants to see
     this.stage.chosen = this.chosen;
     this.setClock();
     this.speed = "auto";
@@ -78,6 +82,14 @@ class Replay {
     this.stage.paint(this.tools.colour);
     this.time = this.opening();
     this.fit();
+  }
+  // Where the first rocket was measured on its flight, so many points at most.
+  dots() {
+    const [way] = this.ways, zero = this.rockets[0]?.ignition ?? 0;
+    if (!way) return [];
+    const all = (this.measured ?? []).filter(({ t }) => t + zero >= way.t[0] && t + zero <= way.t.at(-1));
+    const step = Math.ceil(all.length / MOST_DOTS) || 1;
+    return all.filter((_, i) => i % step === 0).map(({ t, off }) => add(way.at(t + zero).center, off));
   }
   // The launch of one rocket, or of all (null), fills the time slider.
   choose(rocket) {
@@ -98,7 +110,7 @@ class Replay {
   // before its ignition then, as after its end.
   opening() {
     const { ignition, rear } = this.rockets[this.chosen ?? 0] ?? {};
-    if (this.motion.free) return this.clock.time(0.3);
+    if (this.motion.free || this.stage.view === "path") return this.clock.time(0.3);
     return Number.isFinite(ignition) ? ignition + 0.75 * (rear ?? 0) : this.clock.first;
   }
 
@@ -274,7 +286,7 @@ class Replay {
       say("tip z", "tip.z", "m", "tip.y");
       for (const name of this.motion.slides) say("recoil", `recoil.${name}.travel`, "m");
     }
-    if (this.stage.view === "path") words.push("rocket enlarged");
+    if (this.stage.view === "path") words.push(this.stage.dots.length > 0 ? "rocket enlarged, dots: measured" : "rocket enlarged");
     else if (this.motion.t.at(-1) < this.time) words.push("launcher at the end of its history");
     this.reading.textContent = words.join(" · ");
     this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);

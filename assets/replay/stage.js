@@ -54,9 +54,15 @@ export class Stage {
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
     this.scale = this.gap = 1;
     this.view = motion.free ? "path" : "launcher";
+    this.dots = [];
     this.target = null;
     this.chosen = null; // of several rockets
     this.seen = false; // nothing is drawn while the canvas is out of sight
+  }
+  // Measured places in I, which the view of the path shows, too.
+  setDots(dots) {
+    this.dots = dots;
+    if (this.map) this.skyline.push(...dots);
   }
   buildLauncher() {
     const { motion, scene } = this;
@@ -274,7 +280,7 @@ export class Stage {
   namesOf(flight) {
     const seen = (points) => this.seenAt(points.map((point) => subtract(point, this.anchor)));
     const at = seen(flight.marks.map(({ t }) => flight.at(t).center));
-    return { names: flight.marks.map(({ name }, i) => ({ name, x: at[i][0], y: at[i][1] })), way: seen(flight.some(SOME)) };
+    return { names: flight.marks.map(({ name }, i) => ({ name, x: at[i][0], y: at[i][1] })), way: seen(flight.some(SOME)), dots: seen(this.dots) };
   }
   // What the gauge shows: axes of I in the picture, pixels a metre and a newton where the view looks at.
   measured() {

@@ -30,6 +30,20 @@ function verdicts({ series, results }) {
       said(r.uVal, r.unit), r.verdict]))));
 }
 
+// Where the log says that the rocket was: how far from the computed mass centre, in I [m], at its instants from ignition.
+export function measuredPath(compared) {
+  const axes = ["center.x", "center.y", "center.z"], at = new Map();
+  for (const { column, factor, t, measured, simulated } of compared?.series ?? []) {
+    const axis = axes.indexOf(column);
+    if (axis < 0) continue;
+    t.forEach((time, i) => {
+      if (!at.has(time)) at.set(time, [0, 0, 0]);
+      at.get(time)[axis] = (measured[i] - simulated[i]) * factor;
+    });
+  }
+  return [...at].sort(([a], [b]) => a - b).map(([t, off]) => ({ t, off }));
+}
+
 // The lines of the answer: of each series how far off it is.
 export const comparedLines = (compared) => (compared?.series ?? []).map(({ name, unit, error, uVal, verdict }) =>
   ({ label: `Measured ${name}`, said: verdict, note: `${compared.log}: E ${said(error, unit)} rms, u_val ${said(uVal, unit)}` }));
@@ -37,7 +51,7 @@ export const comparedLines = (compared) => (compared?.series ?? []).map(({ name,
 export function showCompared(host, nav, compared) {
   if (!compared) return;
   nav.append(element("a", { href: "#compared" }, "Measured"));
-  host.append(element("h2", { id: "compared" }, `Compared with ${compared.log}`), element("section", { className: "card" }, verdicts(compared)));
+  host.append(element("h2", { id: "compared" }, `Compared with ${compared.log}`), element("section", { className: "card scroll" }, verdicts(compared)));
   compared.series.forEach((series, i) => {
     const group = new PlotGroup(`compared${i}`, [series.t[0], series.t[series.t.length - 1]]);
     addFigures(host, `compared${i}`, [{ name: "compared", title: series.name, open: true, time: "flight" }], () => panelsOf(series),

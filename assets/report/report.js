@@ -1,6 +1,6 @@
 // The report of a run: replay, launcher and answer first, then the plots of each table of numbers, then all numbers.
 import { answerCard } from "./answer.js";
-import { comparedLines, showCompared } from "./compared.js";
+import { comparedLines, measuredPath, showCompared } from "./compared.js";
 import { filled, readable, rowAt } from "./data.js";
 import { decodeTable, inflated } from "./decode.js";
 import { colour, download, element, onColours, themeSwitch } from "./page.js";
@@ -98,7 +98,7 @@ function startReplay(place, shown, flights) {
   const { table, marks, zero, group } = shown;
   let leading = false, last = 0, wanted = null;
   const replay = window.launchdyn.replay(place, {
-    table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets,
+    table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets, measured: measuredPath(data.compared),
     chose: chooseLaunch, tools: { colour, download, element, filled, fixed, onColours, playing, readable, rowAt }, version: data.version,
     shown: (time) => {
       const now = performance.now();

@@ -61,6 +61,7 @@ typedef struct ld_compared_series {
     double largest, t_largest;       ///< |E| and when that is
     size_t saturated, gaps, outside; ///< samples left out
     double bias, bias_uncertainty;   ///< of the sensor, as given or as found at rest
+    const char *column; ///< of the run that it measures, of an altimeter center.y; "": of several
 } ld_compared_series;
 
 /// A number, in SI.

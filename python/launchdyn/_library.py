@@ -242,7 +242,7 @@ class ld_compared_series(Structure):
                 ("u_val", POINTER(c_double)), ("of", ld_validation), ("mean", c_double),
                 ("largest", c_double), ("t_largest", c_double), ("saturated", c_size_t),
                 ("gaps", c_size_t), ("outside", c_size_t), ("bias", c_double),
-                ("bias_uncertainty", c_double)]
+                ("bias_uncertainty", c_double), ("column", c_char_p)]
 
 
 class ld_compared_result(Structure):

@@ -141,6 +141,7 @@ static ld_status fill_series(ld_comparison *self, int k, ld_error *error)
     series->unit = of->si;
     series->log_unit = of->head.unit;
     series->factor = of->factor;
+    series->column = of->kind == SENSOR_ALTIMETER ? "center.y" : of->of;
     series->t = t;
     series->measured = measured;
     series->simulated = simulated;

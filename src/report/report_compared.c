@@ -58,6 +58,9 @@ static void write_series(FILE *json, const ld_compared_series *series)
     write_texts(json, series->name, series->log_unit, &series->of);
     write_member(json, "error", series->of.error / series->factor);
     write_member(json, "uVal", series->of.u_val / series->factor);
+    fputs(",\"column\":", json);
+    json_write_text(json, series->column);
+    write_member(json, "factor", series->factor);
     fprintf(json, ",\"count\":%zu,\"saturated\":%zu,\"gaps\":%zu", series->count, series->saturated,
             series->gaps);
     write_array(json, "t", series, series->t, 1);

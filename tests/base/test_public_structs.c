@@ -52,7 +52,7 @@ SIZE(ld_mstmm_settings, 80);
 // Handed out one by one: may grow at their ends, up to which programs know them.
 SIZE(ld_compared_clock, 24);
 SIZE(ld_compared_result, 104);
-SIZE(ld_compared_series, 192);
+SIZE(ld_compared_series, 200);
 SIZE(ld_key, 56);
 SIZE(ld_quantity, 32);
 SIZE(ld_study_cell, 96);
