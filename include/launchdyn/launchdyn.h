@@ -13,6 +13,7 @@
 #include "launchdyn/loop.h"
 #include "launchdyn/model.h"
 #include "launchdyn/mstmm.h"
+#include "launchdyn/optimise.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
 #include "launchdyn/report.h"

@@ -20,6 +20,7 @@ from .derivatives import Derivative, Sensitivity, sensitivity
 from .errors import (FileError, InputError, Interrupted, LaunchdynError, LaunchError, Message,
                      MissingError, NumericError, OutOfMemory, Status, UnknownName)
 from .fitting import Fit, FittedKey, fit
+from .optimising import OptimisedKey, Optimum, optimise
 from .response import Loop, LoopPoints, Margins, Response, Scatter, Strength
 from .result import Column, History, Quantity, Result, Summary
 from .scenario import Scenario
@@ -40,9 +41,10 @@ __all__ = [
     "Counts", "Derivative", "Estimate", "Event", "EventKind", "FileError", "Fit", "FittedKey",
     "Footprint", "History", "Influence", "InputError", "Interrupted", "Key", "LaunchError",
     "LaunchdynError", "Loop", "LoopPoints", "Margins", "Message", "MissingError", "Mode",
-    "NumericError", "OutOfMemory", "Point", "Pole", "Quantity", "Response", "Result", "Run",
-    "Scatter", "Scenario", "Sensitivity", "Simulation", "Statistics", "Status", "Strength",
-    "Study", "StudyColumn", "StudyData", "Summary", "UnknownName", "Validation", "VehicleRun",
-    "View", "Wrench", "__version__", "compare", "draw", "figures", "fit", "keys",
-    "library_version", "merge_shards", "sensitivity", "write_report",
+    "NumericError", "OptimisedKey", "Optimum", "OutOfMemory", "Point", "Pole", "Quantity",
+    "Response", "Result", "Run", "Scatter", "Scenario", "Sensitivity", "Simulation",
+    "Statistics", "Status", "Strength", "Study", "StudyColumn", "StudyData", "Summary",
+    "UnknownName", "Validation", "VehicleRun", "View", "Wrench", "__version__", "compare",
+    "draw", "figures", "fit", "keys", "library_version", "merge_shards", "optimise",
+    "sensitivity", "write_report",
 ]

@@ -126,6 +126,19 @@ class ld_derivative_options(Structure):
                 ("go_on", GO_ON), ("reserved", c_void_p * 4)]
 
 
+class ld_optimise_counts(Structure):
+    _fields_ = [("launches", c_int64), ("candidates", c_int), ("least", c_double),
+                ("stage", c_char_p)]
+
+
+OPTIMISE_TOLD = CFUNCTYPE(None, c_void_p, POINTER(ld_optimise_counts))
+
+
+class ld_optimise_options(Structure):
+    _fields_ = [("folder", c_char_p), ("threads", c_int), ("self", c_void_p),
+                ("progress", OPTIMISE_TOLD), ("go_on", GO_ON), ("reserved", c_void_p * 4)]
+
+
 class ld_study_view(Structure):
     _fields_ = [("what", c_char_p), ("sensitivity", c_bool), ("json", c_bool),
                 ("index", c_ubyte), ("measured", c_char_p), ("against", c_char_p),
@@ -365,6 +378,12 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_derivatives_free": (None, [_handle]),
     "ld_derivatives_print": (c_int, [_handle, _text, c_void_p, _error]),
     "ld_derivatives_print_json": (c_int, [_handle, _text, c_void_p, _error]),
+    "ld_optimise_create": (c_int, [_handle, _handles, _error]),
+    "ld_optimise_run": (c_int, [_handle, POINTER(ld_optimise_options), _error]),
+    "ld_optimise_print": (None, [_handle, c_void_p]),
+    "ld_optimise_print_json": (None, [_handle, c_void_p]),
+    "ld_optimise_plot": (c_int, [_handle, _text, _error]),
+    "ld_optimise_free": (None, [_handle]),
     "ld_fmu_export": (c_int, [_handle, c_int, c_int, _text, _error]),
     "ld_figure_at": (POINTER(ld_figure), [c_size_t]),
     "ld_plot": (c_int, [POINTER(ld_picture), _text, _error]),

@@ -46,6 +46,7 @@ int command_new(const command *self, int argc, char **argv);
 int command_check(const command *self, int argc, char **argv);
 int command_modes(const command *self, int argc, char **argv);
 int command_fit(const command *self, int argc, char **argv);
+int command_optimise(const command *self, int argc, char **argv);
 int command_fmu(const command *self, int argc, char **argv);
 int command_plot(const command *self, int argc, char **argv);
 void command_plot_figures(void);

@@ -77,6 +77,20 @@ static const command commands[] = {
          "launchdyn run fit/fitted.yaml|Run the fitted scenario",
      .run = command_fit,
      .in_child = true},
+    {.name = "optimise",
+     .arguments = "FILE",
+     .words = 1,
+     .summary = "Find the values of keys at which a disturbance, load or time is least",
+     .about = "Searches the keys that the scenario's block optimise names, between their bounds, "
+              "for the least mean, deviation, quantile or footprint of its study, under "
+              "constraints. All candidates have the same sampled numbers; samples of their own "
+              "tell what was gained. Ctrl-C stops; the same command with the same --out "
+              "continues.",
+     .examples = "launchdyn optimise scenario.yaml -j 4 --out best --plot best.svg|Search, with "
+                 "the course as a picture\n"
+                 "launchdyn run best/optimised.yaml|Run what was found",
+     .run = command_optimise,
+     .in_child = true},
     {.name = "check",
      .arguments = "FILE",
      .words = 1,

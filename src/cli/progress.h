@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "launchdyn/fit.h"
+#include "launchdyn/optimise.h"
 #include "launchdyn/study.h"
 
 typedef struct run_progress {
@@ -30,6 +31,9 @@ bool progress_resume(void *self);
 void progress_launches(void *self, const ld_fit_counts *counts);
 // For ld_derivative_options: how many launches of them are done.
 void progress_derivatives(void *self, int launches, int of);
+
+// For ld_optimise_options: how many candidates are done.
+void progress_candidates(void *self, const ld_optimise_counts *counts);
 
 // Takes the line away.
 void progress_end(run_progress *progress);

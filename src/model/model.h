@@ -20,6 +20,7 @@
 #include "model/blocks/firing.h"
 #include "model/blocks/flight.h"
 #include "model/blocks/measure.h"
+#include "model/blocks/optimise.h"
 #include "model/blocks/platform.h"
 #include "model/blocks/rocket.h"
 #include "model/blocks/run.h"
@@ -47,7 +48,8 @@ struct ld_model {
     int sweep_count;
     ld_sweep_axis *sweep; ///< for studies, owned by the model; its points are read by
                           ///< scenario_read_point()
-    ld_source *source;    ///< what it was read from, shared; NULL: filled by hand
+    ld_optimise optimise;
+    ld_source *source; ///< what it was read from, shared; NULL: filled by hand
     struct {
         bool ground_height, empty_mass, empty_center[3], empty_inertia[3], propellant, stuck_time,
             max_step;

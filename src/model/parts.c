@@ -57,6 +57,11 @@ const ld_run_settings *model_run(const ld_model *model)
     return &model->run;
 }
 
+const ld_optimise *model_optimise(const ld_model *model)
+{
+    return &model->optimise;
+}
+
 const ld_scatter *model_scatter(const ld_model *model)
 {
     return &model->scatter;

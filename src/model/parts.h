@@ -16,6 +16,7 @@ int model_sweep_count(const ld_model *model);   // axes
 const struct ld_base *model_base(const ld_model *model);
 const struct ld_environment *model_environment(const ld_model *model);
 const struct ld_flight *model_flight(const ld_model *model);
+const struct ld_optimise *model_optimise(const ld_model *model);
 const struct ld_platform *model_platform(const ld_model *model);
 const struct ld_rocket *model_rocket(const ld_model *model);
 const struct ld_run_settings *model_run(const ld_model *model);

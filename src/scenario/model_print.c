@@ -131,6 +131,9 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
     case FIELD_WORDS:
         print_words(stream, f, *(const unsigned *)field_at_const(base, f));
         return;
+    case FIELD_LIMIT:
+        print_number(stream, field_at_const(base, f), 1, ((const ld_aim *)base)->unit);
+        return;
     default: // FIELD_TEXT, FIELD_FILE; the others have no place on a line
         scenario_print_text(stream, *(char *const *)field_at_const(base, f));
         return;
@@ -139,9 +142,9 @@ static void print_scalar(FILE *stream, const field_row *f, const void *base)
 
 static bool has_value(const field_row *f, const void *base)
 {
-    if (f->kind == FIELD_NUMBER)
+    if (f->kind == FIELD_NUMBER || f->kind == FIELD_LIMIT)
         return !isnan(*(const double *)field_at_const(base, f));
-    if (f->kind == FIELD_WORD)
+    if (f->kind == FIELD_WORD || f->kind == FIELD_QUANTITY)
         return f->required || *(const char *)field_at_const(base, f);
     if (f->kind == FIELD_WORDS)
         return *(const unsigned *)field_at_const(base, f) != 0;
@@ -149,7 +152,8 @@ static bool has_value(const field_row *f, const void *base)
         return *(char *const *)field_at_const(base, f) != NULL;
     if (f->kind == FIELD_TABLE)
         return ((const ld_table *)field_at_const(base, f))->rows > 0;
-    if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP)
+    if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP ||
+        f->kind == FIELD_BOUNDS)
         return field_switch(base, f) > 0;
     if (f->kind == FIELD_LIST && f->silent)
         return field_switch(base, f) > 0;
@@ -408,6 +412,25 @@ static void print_sweep(FILE *stream, const ld_model *model, int depth)
     }
 }
 
+// "rocket.mass: [60 kg, 62 kg]", a line for each key.
+static void print_bounds(FILE *stream, const ld_optimise *optimise, int depth)
+{
+    const ld_model *model = (const void *)((const char *)optimise - offsetof(ld_model, optimise));
+    fputc('\n', stream);
+    for (int i = 0; i < optimise->key_count; i++) {
+        const ld_bounds *bounds = &optimise->key[i];
+        field_place place;
+        char why[384];
+        field_locate(model, bounds->path, &place, why, sizeof why);
+        const char *unit = place.row && place.row->unit ? place.row->unit : "";
+        fprintf(stream, "%*s%s: [", depth * 2, "", bounds->path);
+        print_number(stream, &bounds->from, 1, unit);
+        fputs(", ", stream);
+        print_number(stream, &bounds->to, 1, unit);
+        fputs(bounds->log ? ", log]\n" : "]\n", stream);
+    }
+}
+
 static void print_block(FILE *stream, const field_block *block, const void *base, int depth);
 
 static void print_field(FILE *stream, const field_row *f, const void *base, int depth)
@@ -429,6 +452,8 @@ static void print_field(FILE *stream, const field_row *f, const void *base, int 
         print_correlated(stream, base, depth + 1);
     } else if (f->kind == FIELD_UNTIL) {
         print_until(stream, base, depth + 1);
+    } else if (f->kind == FIELD_BOUNDS) {
+        print_bounds(stream, base, depth + 1);
     } else if (f->kind == FIELD_SWEEP) {
         print_sweep(stream, base, depth + 1);
     } else if (f->kind == FIELD_TABLE) {

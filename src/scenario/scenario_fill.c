@@ -589,6 +589,8 @@ static void read_field(scenario_reader *reader, const field_row *f, const tree_n
     case FIELD_FACTORS:
     case FIELD_CORRELATED:
     case FIELD_UNTIL: // about all the rest: scenario_fill_scatter()
+    case FIELD_BOUNDS:
+    case FIELD_LIMIT: // scenario_fill_optimise()
     case FIELD_SWEEP: // see sweep_find()
         break;
     }
@@ -805,6 +807,7 @@ void scenario_fill_values(scenario_reader *reader, tree_node *root, ld_model *mo
     model_complete(model);
     measures_complete(model);
     scenario_fill_scatter(reader, root, model);
+    scenario_fill_optimise(reader, root, model);
 }
 
 // Of the path of a key: what it is written with.

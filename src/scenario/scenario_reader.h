@@ -164,6 +164,9 @@ void scenario_fill_scatter(scenario_reader *reader, const tree_node *root, ld_mo
 void fill_correlated(scenario_reader *reader, const tree_node *list, ld_model *model);
 void fill_until(scenario_reader *reader, const tree_node *map, ld_model *model);
 
+// The same of what is optimised.
+void scenario_fill_optimise(scenario_reader *reader, const tree_node *root, ld_model *model);
+
 // A text in double quotes.
 void scenario_print_text(FILE *stream, const char *text);
 

@@ -69,7 +69,7 @@ static bool is_compatible(scenario_reader *reader, const scenario_axis *axis,
 static bool may_be_swept(const sweep_reader *self, const scenario_axis *axis, const char *path)
 {
     scenario_reader *reader = self->reader;
-    static const char *const own[] = {"launchdyn", "include", "scatter", "sweep"};
+    static const char *const own[] = {"launchdyn", "include", "scatter", "sweep", "optimise"};
     const tree_node *node = axis->node;
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (overlap(path, own[i]))

@@ -10,6 +10,7 @@
 #include "launchdyn/loop.h"
 #include "launchdyn/model.h"
 #include "launchdyn/mstmm.h"
+#include "launchdyn/optimise.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/output.h"
 #include "launchdyn/report.h"
@@ -34,6 +35,7 @@ SIZE(ld_compare_options, 80);
 SIZE(ld_fit_options, 80);
 SIZE(ld_derivative_key, 16);
 SIZE(ld_derivative_options, 64);
+SIZE(ld_optimise_options, 72);
 SIZE(ld_picture, 80);
 SIZE(ld_response_wish, 96);
 SIZE(ld_watch, 16);
@@ -87,6 +89,7 @@ SIZE(ld_section, 96);
 SIZE(ld_stretch, 24);
 SIZE(ld_fit_counts, 24);
 SIZE(ld_fit_key, 40);
+SIZE(ld_optimise_counts, 32);
 SIZE(ld_study_counts, 48);
 SIZE(ld_wind_section, 40);
 SIZE(ld_mstmm_assembly, 40);

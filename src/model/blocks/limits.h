@@ -28,6 +28,8 @@ enum {
     LD_MAX_TOGETHER = 8,
     LD_MAX_CHOICES = 32,
     LD_MAX_UNTIL = 16,
+    LD_MAX_BOUNDS = 12,
+    LD_MAX_AIMS = 6,
     LD_MAX_MEASURES = 40,
     LD_MAX_TAKEN = 80, ///< measures, and figures over time in their expressions
     LD_MAX_UNIT = 48,

@@ -154,6 +154,8 @@ static void initialise(const field_row *f, void *base)
         return;
     } else if (f->alternative) {
         initialise(f->alternative, base);
+    } else if (f->kind == FIELD_LIMIT) {
+        *(double *)field_at(base, f) = f->initial;
     } else if (f->kind == FIELD_NUMBER) {
         for (int i = 0; i < f->count; i++)
             ((double *)field_at(base, f))[i] = f->initials ? f->initials[i] : f->initial;
@@ -440,6 +442,13 @@ void field_expectation(const field_row *field, char *text, size_t size)
     case FIELD_UNTIL:
         snprintf(text, size, "a block of at most %d statistics, each with its half width",
                  field->count);
+        return;
+    case FIELD_BOUNDS:
+        snprintf(text, size, "a block of at most %d paths, each with [from, to] or [from, to, log]",
+                 field->count);
+        return;
+    case FIELD_LIMIT:
+        snprintf(text, size, "a number with the unit of the result");
         return;
     case FIELD_SWEEP:
         snprintf(text, size, "a block of paths or names, each with a list of values");

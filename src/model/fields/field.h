@@ -32,6 +32,8 @@ typedef enum field_kind {
                       // path
     FIELD_CORRELATED, // ld_correlated *, owned by the model, their number at `other`
     FIELD_UNTIL,      // array of ld_until, their number at `other`
+    FIELD_BOUNDS,     // array of ld_bounds, their number at `other`
+    FIELD_LIMIT,      // double of an ld_aim, in the unit of its result; NaN: not given
     FIELD_SWEEP,      // ld_sweep_axis *, owned by the model, their number at `other`
 } field_kind;
 

@@ -202,7 +202,8 @@ bool field_locate(const ld_model *model, const char *path, field_place *place, c
         if (is_scalar(f))
             return take_number(&w, f);
         bool study = w.block == &scenario_block &&
-                     (strcmp(f->name, "scatter") == 0 || strcmp(f->name, "sweep") == 0);
+                     (strcmp(f->name, "scatter") == 0 || strcmp(f->name, "sweep") == 0 ||
+                      strcmp(f->name, "optimise") == 0);
         bool inside = study ? refuse(&w, "keys of the study itself cannot be uncertain")
                       : f->kind == FIELD_BLOCK ? enter_block(&w, f)
                       : f->kind == FIELD_LIST  ? enter_list(&w, f)

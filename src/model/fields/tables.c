@@ -1,5 +1,6 @@
 #include "model/fields/field_rows.h"
 #include "model/fields/tables_mechanism.h"
+#include "model/fields/tables_optimise.h"
 #include "model/fields/tables_parts.h"
 
 #define PI 3.14159265358979323846
@@ -1571,6 +1572,9 @@ static const field_row scenario_fields[] = {
     {"scatter", BLOCK(ld_model, scatter, scatter_block), .initial_doc = "none",
      SWITCH(ld_model, scatter.present, given_words), .other_is_bool = true,
      .doc = "uncertain inputs of a study"},
+    {"optimise", BLOCK(ld_model, optimise, optimise_block), .initial_doc = "none",
+     SWITCH(ld_model, optimise.present, given_words), .other_is_bool = true,
+     .doc = "keys with bounds, and what `launchdyn optimise` makes least"},
     {"sweep", .kind = FIELD_SWEEP, .offset = offsetof(ld_model, sweep),
      .other = offsetof(ld_model, sweep_count), .initial_doc = "none",
      .doc = "keys with values that a study combines"},

@@ -195,6 +195,23 @@ static void check_until(model_checker *checker, const ld_scatter *scatter)
     }
 }
 
+static void check_bounds(model_checker *checker, const ld_optimise *optimise)
+{
+    char path[LD_MAX_PATH + 24], why[384];
+    if (optimise->key_count < 0 || optimise->key_count > LD_MAX_BOUNDS)
+        refuse_rule(checker, "optimise.over", "more keys than fit");
+    for (int i = 0; i < optimise->key_count && i < LD_MAX_BOUNDS; i++) {
+        const ld_bounds *bounds = &optimise->key[i];
+        field_place place;
+        bool good = memchr(bounds->path, '\0', sizeof bounds->path) &&
+                    field_locate(checker->model, bounds->path, &place, why, sizeof why) &&
+                    bounds->from < bounds->to && (!bounds->log || bounds->from > 0);
+        snprintf(path, sizeof path, "optimise.over.%d", i + 1);
+        if (!good)
+            refuse_rule(checker, path, "no number of the model with bounds in rising order");
+    }
+}
+
 static void check_sweep(model_checker *checker, const ld_model *model)
 {
     int64_t points = 1;
@@ -215,6 +232,8 @@ static void check_study(model_checker *checker, field_kind kind, const void *bas
         check_correlated(checker, base);
     else if (kind == FIELD_UNTIL)
         check_until(checker, base);
+    else if (kind == FIELD_BOUNDS)
+        check_bounds(checker, base);
     else
         check_sweep(checker, base);
 }
@@ -271,9 +290,11 @@ static void check_field(model_checker *checker, const key_path *path, const fiel
     case FIELD_CORRELATED:
     case FIELD_UNTIL:
     case FIELD_SWEEP:
+    case FIELD_BOUNDS:
         if (!checker->drawn)
             check_study(checker, f->kind, base);
         break;
+    case FIELD_LIMIT: // any
     case FIELD_TEXT:
     case FIELD_FILE:
     case FIELD_SELECTION:
