@@ -53,7 +53,7 @@ static ld_status add_text(command_line *line, int argc, char ***texts, ld_error 
     size_t count = 0;
     int list = 0;
     if (!*texts) {
-        while (line->texts[list])
+        while (list < MOST_TEXTS && line->texts[list])
             list++;
         assert(list < MOST_TEXTS);
         *texts = line->texts[list] = calloc((size_t)argc, sizeof **texts);

@@ -30,7 +30,7 @@ typedef struct command_option {
     const char *help, *argument; // argument NULL: it has none
 } command_option;
 
-enum { MOST_OPTIONS = 24, MOST_TEXTS = 3 }; // of a table; of kind OPTION_TEXTS
+enum { MOST_OPTIONS = 24, MOST_TEXTS = 6 }; // of a table; of kind OPTION_TEXTS
 
 // What stands on the command line beside the options.
 typedef struct command_line {
