@@ -2,6 +2,7 @@
 // own steps, on a fixed base and on the march; that strikes are told.
 #include "support/check.h"
 
+#include "integration/step_course.h"
 #include "launchdyn/derivatives.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/simulation.h"
@@ -180,6 +181,27 @@ static void on_the_march(void **state)
 
 // ---- what is told and refused
 
+// Stretches that a run does not reach, or has besides, make it another's.
+static void stretches_are_counted(void **state)
+{
+    (void)state;
+    step_course of = {0};
+    for (int i = 0; i < 6; i++)
+        step_course_add(&of, &(course_step){.begins = i % 3 == 0, .size = i + 1});
+    for (int reached = 1; reached <= 3; reached++) {
+        step_course along = step_course_of(&of);
+        double sum = 0;
+        for (int i = 0; i < reached; i++) {
+            const course_step *first = step_course_next(&along, true, false);
+            const course_step *next = first ? step_course_next(&along, false, false) : NULL;
+            sum += next ? first->size + next->size : 0;
+        }
+        assert_true(sum == (reached == 1 ? 3 : 12));
+        assert_int_equal(step_course_differs(&along), reached != 2);
+    }
+    step_course_free(&of);
+}
+
 // So wide a step that touches come and go, under a law that locates them.
 static void other_events_are_told(void **state)
 {
@@ -243,9 +265,12 @@ static void refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_forms),          cmocka_unit_test(differences_of_order_6),
-        cmocka_unit_test(on_the_march),          cmocka_unit_test(other_events_are_told),
-        cmocka_unit_test(threads_change_no_bit), cmocka_unit_test(refusals)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(closed_forms),
+                                       cmocka_unit_test(differences_of_order_6),
+                                       cmocka_unit_test(stretches_are_counted),
+                                       cmocka_unit_test(on_the_march),
+                                       cmocka_unit_test(other_events_are_told),
+                                       cmocka_unit_test(threads_change_no_bit),
+                                       cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
