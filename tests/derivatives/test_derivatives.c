@@ -99,7 +99,7 @@ static double result_at(const char *file, const char *const *sets, size_t count,
     ld_summary *summary = ld_summary_new();
     ld_simulation *simulation;
     ld_error error;
-    double number;
+    double number = NAN;
     memcpy(all, sets, count * sizeof *all);
     snprintf(set, sizeof set, "%s=%.17g %s", key, value, unit);
     snprintf(name, sizeof name, "rocket.1.%s", result);
@@ -134,8 +134,8 @@ static void differences_of_order_6(void **state)
 {
     (void)state;
     static const char *const sets[] = {"run.tolerance=1e-8",
-                                       "rocket.contact={law: bilateral, stiffness: 5e7 N/m, "
-                                       "friction: 0.12, friction_speed: 10 mm/s}",
+                                       ("rocket.contact={law: bilateral, stiffness: 5e7 N/m, "
+                                        "friction: 0.12, friction_speed: 10 mm/s}"),
                                        "rocket.adaptors.rear.clearance=0 mm",
                                        "rocket.adaptors.middle.clearance=0 mm",
                                        "rocket.adaptors.front.clearance=0 mm"};
