@@ -55,7 +55,7 @@ scatter:
     rocket.motor.misalignment.y: {normal: 0.5 mrad, within: 3}
     rocket.motor.misalignment.z: {normal: 0.5 mrad, within: 3}
 `);
-  await take(browser, "report-study.png", reportOf("flights.html", studyOf("flights", flight)), { width: 1200, height: 545 });
+  await take(browser, "report-study.png", reportOf("flights.html", studyOf("flights", flight)), { width: 1200, height: 605 });
   const speeds = studyOf("speeds", example("salvo-marching.yaml"), "scatter.samples=10", "title=Ten salvos of 18 rockets at each speed");
   await take(browser, "report-studies.png", reportOf("speeds.html", speeds), { width: 1280, height: 640, top: "#scatter" });
   await take(browser, "report-sweep.png", reportOf("interval.html", studyOf("interval", example("interval.yaml"))), { width: 1200, height: 700 });
