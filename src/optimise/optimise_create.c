@@ -27,8 +27,9 @@ static bool is_replaced(const ld_scatter *scatter, const char *path)
 {
     for (int i = 0; i < scatter->factor_count; i++) {
         const ld_factor *factor = &scatter->factor[i];
-        bool about = factor->distribution == LD_NORMAL || factor->distribution == LD_LOGNORMAL ||
-                     (factor->distribution == LD_UNIFORM && isnan(factor->between[0]));
+        ld_given given = distribution_of(factor->distribution)->given;
+        bool about = given == LD_GIVEN_DEVIATION || given == LD_GIVEN_RATIO ||
+                     (given == LD_GIVEN_SPAN && isnan(factor->between[0]));
         for (int k = 0; k < factor_numbers(factor) && !about; k++)
             if (strcmp(factor_path(factor, k), path) == 0)
                 return true;

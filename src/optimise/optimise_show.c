@@ -215,7 +215,7 @@ static void print_unsure(const ld_optimisation *self, FILE *stream)
             fprintf(stream, "not shown: that the %s keeps its limit\n", text);
     }
     if (margins)
-        fputs("margins are those of the linear equations at rest\n", stream);
+        fputs("margins are those of the linearised equations\n", stream);
 }
 
 void ld_optimise_print(const ld_optimisation *self, FILE *stream)

@@ -272,6 +272,49 @@ static void it_continues(void **state)
     ld_model_free(model);
 }
 
+// ---- margins
+
+// A late loop has a gain margin of 3.9 dB (docs/stabilisers.md); 6 dB require less of the gains.
+static void margins_of_a_loop(void **state)
+{
+    (void)state;
+    static const char *const sets[] = {
+        "base.speed=0 km/h",
+        "run.lead_in=0 s",
+        "run.end=tip",
+        "run.tolerance=1e-4",
+        "run.max_step=1 ms",
+        "run.exit_error=no",
+        "tubes.modes.bending=1",
+        "tubes.modes.torsion=0",
+        "platform.elevation.stabiliser.sample=5 ms",
+        "platform.elevation.stabiliser.delay=5 ms",
+        "optimise={over: {platform.elevation.stabiliser.kd: [1e5 N.m.s/rad, 6e5 N.m.s/rad, log]}, "
+        "least: {of: t_rear}, subject_to: [{take: gain_margin, of: elevation, at_least: 2}], "
+        "evaluations: 12}"};
+    ld_model *model;
+    ld_messages messages;
+    ld_status status;
+    ld_loop *loop;
+    ld_loop_margins margins;
+    ld_error error;
+    assert_int_equal(ld_scenario_read(LD_SOURCE_DIR "/examples/reference.yaml", sets,
+                                      sizeof sets / sizeof *sets, &model, &messages),
+                     LD_OK);
+    assert_int_equal(ld_loop_create(model, "elevation", &loop, &error), LD_OK);
+    ld_loop_margins_of(loop, &margins);
+    ld_loop_free(loop);
+    char *text = optimise(model, NULL, &status);
+    const char *limit = strstr(text, "\"subject_to\"");
+    assert_non_null(limit);
+    CHECK_BELOW("gain margin (relative)", number_in(limit, "scenario", "value") / margins.raise - 1,
+                1e-14);
+    CHECK_WITHIN("at first", number_in(limit, "scenario", "value"), 1.5, 1.65);
+    CHECK_WITHIN("found", number_in(limit, "found", "value"), 2, 10);
+    free(text);
+    ld_model_free(model);
+}
+
 // ---- candidates without launches
 
 // Beyond 15 kN the lock holds the rocket: the latest release, against all advice, is below.
@@ -387,9 +430,13 @@ static void nowhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_the_limit), cmocka_unit_test(the_samples_of_a_study),
-        cmocka_unit_test(it_continues), cmocka_unit_test(some_cannot_be_launched),
-        cmocka_unit_test(refused),      cmocka_unit_test(nowhere),
+        cmocka_unit_test(at_the_limit),
+        cmocka_unit_test(the_samples_of_a_study),
+        cmocka_unit_test(it_continues),
+        cmocka_unit_test(margins_of_a_loop),
+        cmocka_unit_test(some_cannot_be_launched),
+        cmocka_unit_test(refused),
+        cmocka_unit_test(nowhere),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
