@@ -18,9 +18,10 @@ extern "C" {
 typedef struct ld_compare_options {
     const char *sensors; ///< file that says what the log's sensors are; NULL: beside the log, .yaml
     const char *study;   ///< folder of a study, whose deviations are u_input of results; NULL: none
-    int samples;         ///< so many samples of the scenario's scatter are run for u_input; 0: none
-    bool refine;         ///< two more runs, of a tighter tolerance and of more modes, give u_num
-    int rocket;          ///< from 1, in the order of firing; 0: the first
+    int samples; ///< so many samples of the scenario's scatter, with `study` of the study's, are
+                 ///< run for u_input, of series too; 0: none
+    bool refine; ///< two more runs, of a tighter tolerance and of more modes, give u_num
+    int rocket;  ///< from 1, in the order of firing; 0: the first
     /// Called within each further run with the share of it that is done; return false to stop,
     /// which ends with LD_ERR_INTERRUPTED; NULL: not called.
     bool (*progress)(void *self, double share);

@@ -57,7 +57,7 @@ int command_compare(const command *self, int argc, char **argv)
         {"refine", '\0', OPTION_FLAG, &refine,
          "Run twice more, with a tighter tolerance and with more modes, for u_num", NULL},
         {"samples", '\0', OPTION_INTEGER, &asked.options.samples,
-         "Run N samples of the scenario's scatter, for u_input", "N"},
+         "Run N samples of the scenario's scatter, or of the study's, for u_input", "N"},
         {"study", '\0', OPTION_TEXT, &asked.study,
          "Take u_input of results from the study in this folder", "DIR"},
         {"rocket", '\0', OPTION_INTEGER, &asked.options.rocket,

@@ -18,14 +18,11 @@ static ld_status fail_by(ld_status status, ld_messages *messages, ld_error *erro
     return status;
 }
 
-ld_status further_runs_open(further_runs *self, const char *folder, const ld_run_options *options,
-                            ld_error *error)
+// Reads the model; closes after a message.
+static ld_status read_model(further_runs *self, const char *folder, ld_error *error)
 {
     ld_messages messages;
-    *self = (further_runs){.options = *options};
-    ld_status status = ld_origin_read(folder, &self->origin, error);
-    if (status)
-        return status;
+    ld_status status = LD_OK;
     if (!self->origin.source)
         status =
             ld_fail(error, LD_ERR_INPUT,
@@ -36,6 +33,22 @@ ld_status further_runs_open(further_runs *self, const char *folder, const ld_run
     if (status)
         further_runs_close(self);
     return status;
+}
+
+ld_status further_runs_open(further_runs *self, const char *folder, const ld_run_options *options,
+                            ld_error *error)
+{
+    *self = (further_runs){.options = *options};
+    ld_status status = ld_origin_read(folder, &self->origin, error);
+    return status ? status : read_model(self, folder, error);
+}
+
+ld_status further_runs_open_study(further_runs *self, const char *folder,
+                                  const ld_run_options *options, ld_error *error)
+{
+    *self = (further_runs){.options = *options};
+    ld_status status = ld_study_read_origin(folder, &self->origin, error);
+    return status ? status : read_model(self, folder, error);
 }
 
 void further_runs_close(further_runs *self)

@@ -33,6 +33,9 @@ ld_status series_run_make(const series_run *self, ld_error *error);
 // @return LD_OK, LD_ERR_INPUT (the folder does not keep what its run was made of), LD_ERR_MEMORY
 ld_status further_runs_open(further_runs *self, const char *folder, const ld_run_options *options,
                             ld_error *error);
+// Of a study's nominal scenario, for its samples.
+ld_status further_runs_open_study(further_runs *self, const char *folder,
+                                  const ld_run_options *options, ld_error *error);
 void further_runs_close(further_runs *self);
 
 // [m/s2] in the run of that folder.

@@ -247,25 +247,45 @@ static bool needs_summary(const ld_comparison *self)
     return false;
 }
 
+static void note_program(ld_comparison *self, const further_runs *runs)
+{
+    char differs[128];
+    if (ld_origin_differs(&runs->origin, differs, sizeof differs))
+        comparison_note(self, "further runs are those of another program than the results': %s",
+                        differs);
+}
+
 static ld_status make_runs(ld_comparison *self, const char *folder,
                            const ld_compare_options *options, ld_error *error)
 {
     further_runs runs;
-    char differs[128];
     const ld_run_options each = {.self = options->self, .progress = options->progress};
     ld_status status = further_runs_open(&runs, folder, &each, error);
     if (status)
         return status;
-    if (ld_origin_differs(&runs.origin, differs, sizeof differs))
-        comparison_note(self, "further runs are those of another program than the results': %s",
-                        differs);
+    note_program(self, &runs);
     run_observer nominal = {.comparison = self};
     if (needs_summary(self))
         status = further_run(&runs, NULL, self->rocket, take_nominal, &nominal, error);
     if (!status && options->refine)
         status = refine(self, &runs, error);
-    if (!status && options->samples > 0)
+    if (!status && options->samples > 0 && !options->study)
         status = run_samples(self, &runs, options->samples, error);
+    further_runs_close(&runs);
+    return status;
+}
+
+// Studies keep numbers, no series: these come from its first samples, run again.
+static ld_status repeat_study(ld_comparison *self, const ld_compare_options *options,
+                              ld_error *error)
+{
+    further_runs runs;
+    const ld_run_options each = {.self = options->self, .progress = options->progress};
+    ld_status status = further_runs_open_study(&runs, options->study, &each, error);
+    if (status)
+        return status;
+    note_program(self, &runs);
+    status = run_samples(self, &runs, options->samples, error);
     further_runs_close(&runs);
     return status;
 }
@@ -276,6 +296,11 @@ ld_status uncertainty_find(ld_comparison *self, const char *folder,
     ld_status status = LD_OK;
     if (needs_summary(self) || options->refine || options->samples > 0)
         status = make_runs(self, folder, options, error);
+    if (!status && options->study && options->samples > 0)
+        status = repeat_study(self, options, error);
+    else if (!status && options->study && self->log.sensors > 0)
+        comparison_note(
+            self, "u_input of series requires --samples N: N launches of the study are run again");
     if (!status && options->study)
         status = read_study(self, options->study, error);
     return status;
@@ -335,19 +360,32 @@ ld_validation uncertainty_of_sample(const ld_comparison *self, int k, size_t i)
     return found;
 }
 
+// Squares of an uncertainty's samples, of which none may be known.
+typedef struct known_squares {
+    double sum;
+    bool known;
+} known_squares;
+
+static void add_square(known_squares *self, double uncertainty)
+{
+    self->sum += square(uncertainty);
+    self->known = self->known || !isnan(uncertainty);
+}
+
 void uncertainty_of_series(const ld_comparison *self, int k, ld_compared_series *series)
 {
     const sensor *of = &self->log.sensor[k];
     const char *compared = self->compared + (size_t)k * self->log.rows;
-    double error = 0, mean = 0, u_num = 0, u_input = 0, u_data = 0, size = 0;
+    double error = 0, mean = 0, u_data = 0, size = 0;
+    known_squares u_num = {.sum = 0}, u_input = {.sum = 0};
     for (size_t i = 0; i < self->log.rows; i++) {
         if (!compared[i])
             continue;
         ld_validation sample = uncertainty_of_sample(self, k, i);
         mean += sample.error;
         error += sample.error * sample.error;
-        u_num += square(sample.u_num);
-        u_input += square(sample.u_input);
+        add_square(&u_num, sample.u_num);
+        add_square(&u_input, sample.u_input);
         u_data += square(sample.u_data);
         size += square(of->value[i]);
         if (!(fabs(sample.error) <= series->largest)) {
@@ -359,8 +397,8 @@ void uncertainty_of_series(const ld_comparison *self, int k, ld_compared_series 
     series->mean = mean / n;
     series->of = (ld_validation){
         .error = sqrt(error / n),
-        .u_num = self->u_num.reading ? sqrt(u_num / n) : NAN,
-        .u_input = self->u_input.reading ? sqrt(u_input / n) : NAN,
+        .u_num = u_num.known ? sqrt(u_num.sum / n) : NAN,
+        .u_input = u_input.known ? sqrt(u_input.sum / n) : NAN,
         .u_data = sqrt(u_data / n),
         .limit = isnan(of->limit) ? sqrt(size / n) : of->limit,
     };

@@ -308,6 +308,45 @@ static void test_command(void **state)
                      0);
 }
 
+// u_input of a study: of a result what its samples have, of a series the first of them run again,
+// which are those that --samples runs of the same scenario.
+static void test_study(void **state)
+{
+    (void)state;
+    enum { SAMPLES = OF_ALL(12, 3) };
+    char study[256], line[128];
+    make_run("");
+    snprintf(line, sizeof line, "launchdyn study s.yaml --out study -q --set scatter.samples=%d",
+             SAMPLES);
+    if (run(line))
+        fail_msg("%s", shell.err);
+    write_log("log.csv", 0, 1, 7);
+    write_text("log.yaml", "sensors:\n"
+                           "  - {column: height, kind: altimeter, noise: 0.5 m}\n"
+                           "results:\n"
+                           "  - {of: height, take: max}\n"
+                           "  - {of: t_apogee, measured: 6.47 s, uncertainty: 10 ms}\n");
+    snprintf(study, sizeof study, "%s", in("study"));
+    ld_comparison *of[] = {
+        compare("log.csv", &(ld_compare_options){.samples = SAMPLES}),
+        compare("log.csv", &(ld_compare_options){.study = study}),
+        compare("log.csv", &(ld_compare_options){.study = study, .samples = SAMPLES})};
+    double series[3], highest[3], late[3];
+    for (int i = 0; i < 3; i++) {
+        series[i] = ld_comparison_series(of[i], 0)->of.u_input;
+        highest[i] = ld_comparison_result(of[i], 0)->of.u_input;
+        late[i] = ld_comparison_result(of[i], 1)->of.u_input;
+    }
+    assert_true(isnan(series[1]) && isnan(highest[1]) && series[0] > 0.1 && highest[0] > 0.1);
+    assert_non_null(strstr(ld_comparison_note(of[1], 0), "u_input of series requires --samples"));
+    CHECK_NEAR("u_input of a series, its study run again [m]", series[2], series[0], 1e-12);
+    CHECK_NEAR("of a number of the series [m]", highest[2], highest[0], 1e-12);
+    CHECK_NEAR("of a result, from the study [s]", late[1], late[0], 1e-12);
+    CHECK_NEAR("and with both [s]", late[2], late[0], 1e-12);
+    for (int i = 0; i < 3; i++)
+        ld_comparison_free(of[i]);
+}
+
 // On a vehicle at rest: chassis and elevation platform feel gravity along their axes, the chassis'
 // gyro nothing; a gauge in um/m; what parts there are.
 static void test_launcher(void **state)
@@ -422,7 +461,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_series),  TEST(test_noise),    TEST(test_verdicts), TEST(test_left_out),
-        TEST(test_command), TEST(test_launcher), TEST(test_refusals),
+        TEST(test_command), TEST(test_launcher), TEST(test_study),    TEST(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
