@@ -105,7 +105,8 @@ const notes = data.notes.map((note) => element("p", { className: "warning" }, no
 const launches = data.measured?.results.map((result) => describe(result)) ?? [], parts = [...Array.from({ length: partCount }, (_, part) => part), -1];
 const listed = first.length ? first : swept(), told = listed.length ? answer(data, listed) : null, [shares, otherShares] = sensitivities();
 const one = data.series.length === 1 && told, clouds = data.pairs.map((pair) => scatter(data, { ...pair, title: marked(pair.y, pair.title, steep.length > 0) })).filter(Boolean);
-const said = sentence(data, listed), swing = leading(data), picture = swing ? overKey(data, ...swing) : null;
+const words = foremost(data.sensitivities.filter(({ says }) => says), 1).map(({ says }) => element("p", { className: "sentence" }, says))[0];
+const said = words ?? sentence(data, listed), swing = leading(data), picture = swing ? overKey(data, ...swing) : null;
 const lead = (title, plots, others) => // beside each other
   section("summary", title, ...notes, ...states(), said, element("div", { className: "lead" }, told, plots), others);
 const besides = one && !shares ? clouds.length > 0 ? "scatter" : "results" : "";

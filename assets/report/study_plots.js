@@ -247,37 +247,41 @@ export function scatter(data, pair) {
 const MOST_FACTORS = 8, MOST_OF_MANY = 6;
 
 // A bar for each factor and series: the share of the result's variance that it makes alone; none where the
-// estimate is below zero.
-export function sensitivity(data, { name, series }) {
-  const result = describe({ name, unit: "" }), list = having(data, series), many = list.length > MOST_OVERLAID;
-  const greatest = new Map();
+// estimate is below zero. Of total indices a pale bar above it, of Morris's effects mu* alone.
+export function sensitivity(data, { name, series, effects = false, unit = "" }) {
+  const result = describe({ name, unit }), list = having(data, series), many = list.length > MOST_OVERLAID;
+  const factor = effects ? result.factor : 100, sign = effects ? ` ${result.unit}` : " %";
+  const greatest = new Map(), totals = list.some(({ own }) => own.some((entry) => entry.length > 2));
   for (const { own } of list)
-    for (const [factor, [value]] of own) greatest.set(factor, Math.max(value, greatest.get(factor) ?? -Infinity));
+    for (const [path, [value], total] of own) greatest.set(path, Math.max(total ? total[0] : value, greatest.get(path) ?? -Infinity));
   const factors = [...greatest.keys()].sort((a, b) => greatest.get(b) - greatest.get(a)).slice(0, many ? MOST_OF_MANY : MOST_FACTORS);
   if (factors.length === 0) return null;
-  const left = greatest.size - factors.length, thick = many ? 5 : 9, row = 17 + thick * list.length;
-  const bars = factors.flatMap((factor, i) => list.flatMap(({ own, series: of, s }, k) => {
-    const found = own.find(([path]) => path === factor);
-    return found ? [{ factor, of, s, y: i + (17 + thick * k) / row, shares: found[1].map((v) => (v === null ? null : 100 * v)) }] : [];
-  }));
-  const known = bars.flatMap(({ shares }) => shares).filter((v) => v !== null);
+  const left = greatest.size - factors.length, thick = many ? 5 : 9, kinds = totals ? ["total", "first order"] : [""];
+  const row = 17 + thick * list.length * kinds.length;
+  const bars = factors.flatMap((path, i) => list.flatMap(({ own, series: of, s }, k) => kinds.flatMap((kind, n) => {
+    const found = own.find(([one]) => one === path)?.[kind === "total" ? 2 : 1];
+    return found ? [{ path, of, s, kind, y: i + (17 + thick * (k * kinds.length + n)) / row, shares: found.map((v) => (v === null ? null : factor * v)) }] : [];
+  })));
+  const known = bars.flatMap(({ shares }) => shares).filter((v) => v !== null), what = effects ? "mu*" : "share of the variance";
   return chart({
     title: `${result.label}: factors`, down: true, height: 60 + row * factors.length,
-    x: { label: "share of the variance [%]", range: [0, Math.max(5, ...known) * 1.02] },
+    x: { label: `${what} [${sign.trim()}]`, range: [0, Math.max(effects ? 0 : 5, ...known) * 1.02] },
     y: { label: "", range: [factors.length, 0], names: [] },
     draw: (place) => [
-      ...factors.map((factor, i) => svg("text", { x: place.left + 2, y: place.y(i) + 13 }, factor)),
-      ...bars.flatMap(({ s, y, shares: [value, low, high] }) => {
+      ...factors.map((path, i) => svg("text", { x: place.left + 2, y: place.y(i) + 13 }, path)),
+      ...bars.flatMap(({ s, y, kind, shares: [value, low, high] }) => {
         const top = place.y(y), middle = top + thick / 2 - 1, length = Math.max(0.5, place.x(value) - place.x(0));
-        return [svg("rect", { x: place.x(0), width: length, y: top, height: thick - 2, class: "bar", style: colourOf(s) }),
-          ...(low === null ? [] : [svg("line", { x1: place.x(low), x2: place.x(high), y1: middle, y2: middle, class: "whisker" })])];
+        return [svg("rect", { x: place.x(0), width: length, y: top, height: thick - 2, class: kind === "total" ? "bar pale" : "bar", style: colourOf(s) }),
+          ...(low === null ? [] : [svg("line", { x1: place.x(Math.max(0, low)), x2: place.x(high), y1: middle, y2: middle, class: "whisker" })])];
       })],
     count: bars.length,
     at: (i) => [bars[i].shares[0], bars[i].y + thick / 2 / row],
-    reading: (i) => `${named(list, bars[i].of, bars[i].factor)}: ${withInterval(bars[i].shares)} %`,
-    note: left > 0 ? `${left} ${left === 1 ? "factor with a smaller share is" : "factors with smaller shares are"} not drawn` : "",
-    csv: () => csvOf(["series", "factor", ...["", ", low", ", high"].map((end) => `share of the variance of ${name}${end}`)],
-      list.flatMap(({ own, series: of }) => own.map(([factor, values]) => [of.label, factor, ...values]))),
+    reading: (i) => `${named(list, bars[i].of, bars[i].path)}: ${bars[i].kind ? `${bars[i].kind} ` : ""}${withInterval(bars[i].shares)}${sign}`,
+    note: [totals ? "pale: total, full: first order" : "",
+      left > 0 ? `${left} ${left === 1 ? "factor with a smaller share is" : "factors with smaller shares are"} not drawn` : ""].filter(Boolean).join("; "),
+    csv: () => csvOf(["series", "factor", ...(totals ? ["first order", "total", "total less first"] : [`${what} of ${name}`])
+      .flatMap((head) => ["", ", low", ", high"].map((end) => head + end))],
+    list.flatMap(({ own, series: of }) => own.map(([path, ...values]) => [of.label, path, ...values.flat()]))),
   });
 }
 

@@ -206,6 +206,13 @@ static void write_ticks(FILE *script, char axis, const chart_words *words, bool 
     fputs(")\n", script);
 }
 
+// Many bars require more.
+static double axes_height(const chart *self)
+{
+    const double bars = has_bars(self) ? 21. * self->y_words.count : 0;
+    return fmax(HEIGHT - TOP - BOTTOM, bars);
+}
+
 static void write_axes(FILE *script, const chart *self, const double x[2], const double y[2])
 {
     fprintf(script, "set xrange [%.8g:%.8g]\nset yrange [%.8g:%.8g]\nunset logscale\n",
@@ -226,7 +233,11 @@ static void write_axes(FILE *script, const chart *self, const double x[2], const
                 self->level, self->level);
     fputs("set label ", script);
     plot_write_quoted(script, self->title);
-    fputs(" at graph 0,1.17 left font ',12'\nset xlabel ", script);
+    const double taller = axes_height(self) / (HEIGHT - TOP - BOTTOM); // distances stay
+    fprintf(script, " at graph 0,%.6g left font ',12'\n", 1 + 0.17 / taller);
+    if (has_bars(self))
+        fprintf(script, "set key at graph 1,%.6g\n", 1 + 0.08 / taller);
+    fputs("set xlabel ", script);
     plot_write_quoted(script, self->x_label);
     fputs(" font ',10'\nset ylabel ", script);
     plot_write_quoted(script, self->y_label);
@@ -322,11 +333,9 @@ static double left_of(const chart *self)
     return fmax(LEFT, fmin(widest(&self->y_words), has_bars(self) ? 300 : 200) + 34);
 }
 
-// Many bars require more height.
 static double height_of(const chart *self)
 {
-    const double bars = has_bars(self) ? 21. * self->y_words.count : 0;
-    return fmax(HEIGHT - BOTTOM, bars + TOP) + bottom_of(self);
+    return TOP + axes_height(self) + bottom_of(self);
 }
 
 // The axes' place: of the chart whose upper edge is `above` pixels down.

@@ -5,6 +5,7 @@
 
 #include "report/report_study_numbers.h"
 #include "results/json_text.h"
+#include "studies/points/influence.h"
 #include "studies/statistics/sensitivity.h"
 
 // The most requested first: of many series and factors there is no room for all.
@@ -63,16 +64,79 @@ static void write_factors(FILE *json, const study_values *values, const study_co
     }
 }
 
+// Of the plans for sensitivities: the path, then the estimates that the plan gives.
+static void write_influences(FILE *json, const influence *list, int count, influence_kind kind)
+{
+    for (int i = 0; i < count; i++) {
+        const estimate of[] = {kind == INFLUENCE_EFFECTS ? list[i].effects.magnitude
+                                                         : list[i].indices.first,
+                               list[i].indices.total, list[i].indices.together};
+        fputs(i ? ",[" : "[", json);
+        json_write_text(json, list[i].factor->name);
+        for (int k = 0; k < (kind == INFLUENCE_EFFECTS ? 1 : 3); k++) {
+            fputc(',', json);
+            study_write_estimate(json, 0, of[k], study_write_short);
+        }
+        fputc(']', json);
+    }
+}
+
+// Of such a plan; what it says in words goes to `said`.
+static void write_planned(FILE *json, study_source *source, study_series *series,
+                          const study_column *result, char said[INFLUENCE_TEXT])
+{
+    const study_data *data = series->data;
+    const influence_kind kind = influence_kind_of(data);
+    const influence_question question = {data, series->point, result, LD_INDEX_USUAL};
+    ld_error error = {.status = LD_ERR_MEMORY, .text = "no memory"};
+    int count = 0;
+    influence *list = calloc((size_t)data->column_count + 1, sizeof *list);
+    if (!list || influences_of(&question, &series->values, list, &count, &error))
+        study_take_problem(source, "sensitivities: ", &error);
+    else if (count > 0 && isfinite(influence_rank(&list[0], kind, LD_INDEX_USUAL)))
+        write_influences(json, list, count, kind);
+    if (list)
+        influence_sentence(result, kind, list, count, said);
+    free(list);
+}
+
 static void write_series(FILE *json, study_source *source, study_series *series, const char *result,
-                         const study_column **column)
+                         const study_column **column, char said[INFLUENCE_TEXT])
 {
     int count = list_columns(series->data, result, column);
     fputc('[', json);
-    if (count > 1) {
+    if (count > 1 && influence_kind_of(series->data) != INFLUENCE_SHARES) {
+        write_planned(json, source, series, column[0], said);
+    } else if (count > 1) {
         study_read(source, series, column, count);
         write_factors(json, &series->values, column, count);
     }
     fputc(']', json);
+}
+
+// A result in all series, and what one study alone says of it. Effects and shares do not go on one
+// axis: those of the first series are drawn.
+static void write_result(FILE *json, study_source *source, const char *result,
+                         const study_column **column)
+{
+    const bool effects = influence_kind_of(source->series[0].data) == INFLUENCE_EFFECTS;
+    char said[INFLUENCE_TEXT] = "";
+    const char *nearest;
+    const study_column *first = study_data_find(source->series[0].data, result, &nearest);
+    fprintf(json, "{\"name\":\"%s\",\"series\":[", result);
+    for (int s = 0; s < source->series_count; s++) {
+        study_series *series = &source->series[s];
+        fputs(s ? ",\n" : "\n", json);
+        if ((influence_kind_of(series->data) == INFLUENCE_EFFECTS) == effects)
+            write_series(json, source, series, result, column, said);
+        else
+            fputs("[]", json);
+    }
+    fprintf(json, "],\"effects\":%s,\"unit\":", effects ? "true" : "false");
+    json_write_text(json, effects && first ? first->unit : "");
+    fputs(",\"says\":", json);
+    json_write_text(json, source->series_count == 1 ? said : "");
+    fputc('}', json);
 }
 
 static int count_estimates(const study_source *source)
@@ -105,12 +169,8 @@ ld_status study_write_sensitivities(FILE *json, study_source *source)
                          "no room for more.",
                          fit, RESULTS);
     for (int i = 0; i < RESULTS && i < fit; i++) {
-        fprintf(json, "%s\n{\"name\":\"%s\",\"series\":[", i ? "," : "", results[i]);
-        for (int s = 0; s < source->series_count; s++) {
-            fputs(s ? ",\n" : "\n", json);
-            write_series(json, source, &source->series[s], results[i], column);
-        }
-        fputs("]}", json);
+        fputs(i ? ",\n" : "\n", json);
+        write_result(json, source, results[i], column);
     }
     free(column);
     return LD_OK;

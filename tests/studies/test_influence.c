@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/memory_stream.h"
+#include "launchdyn/report.h"
 #include "launchdyn/simulation.h"
 #include "launchdyn/study_data.h"
 #include "studies/plan/study.h"
@@ -281,6 +282,43 @@ static void test_said(void **state)
                 LD_ERR_INPUT, "--sensitivity total requires samples of another plan");
 }
 
+// The report says the same in its first sentence, and has the total beside the first order.
+static void test_reported(void **state)
+{
+    (void)state;
+    static const char *const parts[][3] = {
+        {"rows", "\"says\":\"environment.wind.add.x makes ", "\"effects\":false"},
+        {"morris", "\"says\":\"environment.wind.add.x moves downrange most", "\"effects\":true"}};
+    for (int k = 0; k < 2; k++) {
+        ld_report report;
+        ld_error error = {.text = ""};
+        char file[160], *page = calloc(1, 1 << 22), *at;
+        const char *const folders[] = {in(parts[k][0])};
+        snprintf(file, sizeof file, "%s.html", folders[0]);
+        if (ld_report_write_studies(folders, 1, file, &report, &error))
+            fail_msg("%s", error.text);
+        FILE *stream = fopen(file, "r");
+        assert_non_null(stream);
+        assert_non_null(page);
+        assert_true(fread(page, 1, (1 << 22) - 1, stream) > 0);
+        fclose(stream);
+        at = strstr(page, "\"sensitivities\":[");
+        assert_non_null(at);
+        at = strstr(at, "{\"name\":\"downrange\"");
+        assert_non_null(at);
+        assert_non_null(strstr(at, parts[k][1]));
+        assert_non_null(strstr(at, parts[k][2]));
+        // the first factor's path and three estimates, or one
+        at = strstr(at, "[[\"environment.wind.add.x\",");
+        assert_non_null(at);
+        int estimates = 0;
+        for (const char *c = at + 2; strncmp(c, "]]", 2) != 0 && strncmp(c, "]],[", 3) != 0; c++)
+            estimates += *c == '[';
+        assert_int_equal(estimates, k ? 1 : 3);
+        free(page);
+    }
+}
+
 static void test_plotted(void **state)
 {
     (void)state;
@@ -301,7 +339,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_derivatives), cmocka_unit_test(test_effects),
         cmocka_unit_test(test_same_bits),   cmocka_unit_test(test_said),
-        cmocka_unit_test(test_plotted),
+        cmocka_unit_test(test_reported),    cmocka_unit_test(test_plotted),
     };
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }

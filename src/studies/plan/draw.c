@@ -120,9 +120,9 @@ static bool is_second(const ld_scatter *scatter, const ld_factor *factor, plan_p
     if (!plan_has_rows(scatter))
         return false;
     const int number = (int)(factor - scatter->factor);
-    return scatter->plan == LD_PLAN_SALTELLI
-               ? at.column == 1 || at.column == number + 2
-               : at.column > draw_turn(scatter->seed, scatter->factor_count, at.sample, number);
+    if (scatter->plan == LD_PLAN_SALTELLI)
+        return at.column == 1 || at.column == number + 2;
+    return at.column > draw_turn(scatter->seed, scatter->factor_count, at.sample, number);
 }
 
 // The factor's number on its own, as if it were in no group.

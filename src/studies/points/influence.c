@@ -248,7 +248,8 @@ static void append_text(char text[INFLUENCE_TEXT], const char *more)
     snprintf(text + length, INFLUENCE_TEXT - length, "%s", more);
 }
 
-// Those whose share with others is surely above zero; at most three are named.
+// Those whose share with others is above zero by 1.5 times half its interval: of many factors some
+// are by once that by chance. At most three are named.
 void influence_together(const influence *list, int count, char text[INFLUENCE_TEXT])
 {
     enum { NAMED = 3 };
@@ -257,7 +258,7 @@ void influence_together(const influence *list, int count, char text[INFLUENCE_TE
     text[0] = '\0';
     for (int i = 0; i < count; i++) {
         const estimate *e = &list[i].indices.together;
-        if (!(e->low > 0) || !(100 * e->value >= 0.5))
+        if (!(e->value > 1.5 * (e->value - e->low)) || !(100 * e->value >= 0.5))
             continue;
         write_percent(share, e);
         snprintf(one, sizeof one, "%s %.120s %s", found ? "," : "with other factors act",
@@ -269,7 +270,7 @@ void influence_together(const influence *list, int count, char text[INFLUENCE_TE
         snprintf(one, sizeof one, ", and %d more", found - NAMED);
         append_text(text, one);
     }
-    append_text(text, found ? "" : "no interaction of factors is shown");
+    append_text(text, found ? "" : "no significant interaction of factors");
 }
 
 static void tell_effects(const influence *first, char text[INFLUENCE_TEXT])
