@@ -80,6 +80,48 @@ ld_status ld_study_run(const ld_study *study, const char *folder, const ld_study
 ld_status ld_study_join(const ld_study *study, const char *folder, const ld_study_options *options,
                         ld_study_counts *counts, ld_error *error);
 
+/// The study as bytes, from which a process anywhere reads it without files: the texts that it was
+/// read from.
+/// @param packed to be freed (free()); NULL on failure
+/// @return LD_OK; LD_ERR_INPUT, its model was not read from a scenario; LD_ERR_MEMORY
+ld_status ld_study_pack(const ld_study *study, void **packed, size_t *size, ld_error *error);
+/// @return as ld_study_read_source(); LD_ERR_INPUT without messages: damaged bytes
+ld_status ld_study_unpack(const void *packed, size_t size, ld_study **study, ld_messages *messages);
+
+/// Samples `first` to `last`.
+typedef struct ld_study_range {
+    int64_t first, last;
+} ld_study_range;
+
+/// Runs a range of samples for a study that another process keeps, whatever carries the part there.
+/// @param options threads, go_on
+/// @param part to be freed (free()); NULL on failure
+/// @return LD_OK; LD_ERR_INPUT (nothing varies, no such samples), LD_ERR_MEMORY, LD_ERR_INTERRUPTED
+ld_status ld_study_run_range(const ld_study *study, const ld_study_range *range,
+                             const ld_study_options *options, void **part, size_t *size,
+                             ld_error *error);
+
+/// A study whose ranges run elsewhere: hands them out, and keeps the parts that come back, in any
+/// order and also twice. On one thread at a time.
+typedef struct ld_study_keeper ld_study_keeper;
+
+/// Opens the folder as ld_study_run(). The study must outlive it.
+/// @param keeper to be closed; NULL on failure
+ld_status ld_study_keeper_open(const ld_study *study, const char *folder, ld_study_keeper **keeper,
+                               ld_error *error);
+/// The next of at most 4000 ranges that are not kept; each is handed out once: run again what is
+/// lost. false: there is none now; with a stopping rule there may be after the next part.
+bool ld_study_keeper_next(ld_study_keeper *keeper, ld_study_range *range);
+/// Keeps a part.
+/// @return LD_OK; LD_ERR_INPUT (damaged, or of another scenario or version), LD_ERR_FILE,
+///         LD_ERR_MEMORY
+ld_status ld_study_keeper_put(ld_study_keeper *keeper, const void *part, size_t size,
+                              ld_error *error);
+void ld_study_keeper_counts(const ld_study_keeper *keeper, ld_study_counts *counts);
+/// May be NULL.
+/// @return LD_OK, LD_ERR_FILE, LD_ERR_MEMORY
+ld_status ld_study_keeper_close(ld_study_keeper *keeper, ld_error *error);
+
 /// Joins what shards have kept in the folder into its study.db and prints what is still missing.
 /// Harmless however often, and while shards run; ld_study_run() without a shard then runs the rest.
 /// @return LD_OK; LD_ERR_INPUT (no shards, or of different studies, or another program works on

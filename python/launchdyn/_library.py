@@ -96,6 +96,10 @@ class ld_study_options(Structure):
                 ("reserved", c_void_p * 3)]
 
 
+class ld_study_range(Structure):
+    _fields_ = [("first", c_int64), ("last", c_int64)]
+
+
 class ld_fit_key(Structure):
     _fields_ = [("path", c_char_p), ("from", c_char_p), ("to", c_char_p), ("mean", c_char_p),
                 ("deviation", c_char_p)]
@@ -435,6 +439,15 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_study_join": (c_int, [_handle, _text, POINTER(ld_study_options),
                               POINTER(ld_study_counts), _error]),
     "ld_study_show_statistic": (c_int, [_text, _text, POINTER(ld_study_view), c_void_p, _error]),
+    "ld_study_run_range": (c_int, [_handle, POINTER(ld_study_range), POINTER(ld_study_options),
+                                   _handles, POINTER(c_size_t), _error]),
+    "ld_study_pack": (c_int, [_handle, _handles, POINTER(c_size_t), _error]),
+    "ld_study_unpack": (c_int, [c_void_p, c_size_t, _handles, _messages]),
+    "ld_study_keeper_open": (c_int, [_handle, _text, _handles, _error]),
+    "ld_study_keeper_next": (c_bool, [_handle, POINTER(ld_study_range)]),
+    "ld_study_keeper_put": (c_int, [_handle, c_void_p, c_size_t, _error]),
+    "ld_study_keeper_counts": (None, [_handle, POINTER(ld_study_counts)]),
+    "ld_study_keeper_close": (c_int, [_handle, _error]),
     "ld_study_merge": (c_int, [_text, c_void_p, _error]),
     "ld_study_export": (c_int, [_text, _text, _text, _error]),
     "ld_study_export_footprint": (c_int, [_text, _text, _error]),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import os
 import threading
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -19,6 +20,7 @@ from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_
                        ld_study_cell, ld_study_footprint, ld_study_influence, ld_study_options,
                        ld_study_over, ld_study_statistics, ld_study_values,
                        ld_study_view, library)
+from ._mapping import Executors, Mapping, _Keeper
 from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
@@ -206,6 +208,34 @@ class Study:
         """Runs the samples shard, shard + shards, ... alone, for merge_shards(): several programs,
         on one machine or on many, share a folder so. Else as run()."""
         return self._run(_Work(self.handle, folder, threads, shard, shards), progress)
+
+    def map(self, executor: Executors, folder: PathLike, progress: Progress = None,
+            ahead: int = 256) -> StudyData:
+        """Runs the samples that the folder does not hold yet on an executor of concurrent.futures,
+        as of Dask (`client.get_executor()`), Parsl or Ray, and opens what it then holds. Else as
+        run(): the same bits.
+
+        A task is a range of samples of about half a second; `ahead` tasks are submitted at a time.
+        A range whose worker is killed runs again. A ProcessPoolExecutor takes no more work
+        then: give a function that makes one. Where the executor runs, the package must be there,
+        but no file and no folder.
+        """
+        done, last, went = -1, time.monotonic(), False
+        with Interrupt() as interrupt, followed(progress) as told, \
+                _Keeper(self.handle, folder) as keeper:
+            mapping = Mapping(self, keeper, executor, ahead)
+            try:
+                while not interrupt.asked and mapping.step():
+                    counts = keeper.counts
+                    if told and counts.done != done and time.monotonic() - last >= LOOK_UP:
+                        done, last = counts.done, time.monotonic()
+                        told(_counts(counts))
+                went = not interrupt.asked
+            finally:
+                mapping.end(went)
+            if went and told:
+                told(_counts(keeper.counts))
+        return StudyData(folder)
 
     def _run(self, work: _Work, progress: Progress) -> Counts:
         with Interrupt() as interrupt, followed(progress) as told:

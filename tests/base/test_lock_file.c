@@ -27,7 +27,7 @@ static void end_holder(void)
     if (waits.removes)
         lock_file_remove(in("x.lock"), waits.held);
     else
-        close(waits.held);
+        lock_file_release(waits.held);
 }
 
 int nanosleep(const struct timespec *asked, struct timespec *left)
@@ -45,9 +45,10 @@ static bool ends_before; // the holder ends after the file was opened
 
 int flock(int file, int operation)
 {
-    if (ends_before)
-        end_holder();
+    bool ends = ends_before;
     ends_before = false;
+    if (ends)
+        end_holder();
     errno = no_locks;
     return no_locks ? -1 : (int)syscall(SYS_flock, file, operation);
 }
@@ -83,8 +84,8 @@ static void test_held(void **state)
     CHECK_WITHIN("wait for a lock that stays held [s]", waits.seconds, 1.999, 2.001);
     int second;
     assert_int_equal(lock_file_try(in("x.lock"), "x", &second, NULL), LD_ERR_INPUT);
-    close(lock);
-    close(take());
+    lock_file_release(lock);
+    lock_file_release(take());
 }
 
 static void test_given_up_meanwhile(void **state)
@@ -109,6 +110,32 @@ static void test_given_up_meanwhile(void **state)
     int lock = take(), second;
     assert_int_equal(lock_file_try(in("x.lock"), "x", &second, NULL), LD_ERR_INPUT);
     lock_file_remove(in("x.lock"), lock);
+}
+
+// A process that its holder has forked does not hold it beyond the holder's end.
+static void test_forked(void **state)
+{
+    (void)state;
+    int status, ends[2];
+    assert_int_equal(pipe(ends), 0);
+    pid_t holder = fork();
+    assert_true(holder >= 0);
+    if (holder == 0) {
+        take();
+        if (fork() == 0) {
+            close(ends[1]);
+            char end;
+            _exit(read(ends[0], &end, 1) != 0); // until the test closes its end
+        }
+        _exit(0);
+    }
+    assert_int_equal(waitpid(holder, &status, 0), holder);
+    int lock;
+    ld_error error;
+    assert_int_equal(lock_file_try(in("x.lock"), "x", &lock, &error), LD_OK);
+    lock_file_remove(in("x.lock"), lock);
+    close(ends[0]);
+    close(ends[1]);
 }
 
 static void test_no_lock_to_be_had(void **state)
@@ -159,7 +186,7 @@ static int die_at_work(void *data)
     child_writes(in("x.part"));
     fclose(fopen(in("x.part"), "w"));
     if (other) { // it takes the lock over before the parent comes to it
-        close(lock);
+        lock_file_release(lock);
         say(other->asked);
         hear(other->answers);
     }
@@ -203,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_held),
         cmocka_unit_test(test_given_up_meanwhile),
+        cmocka_unit_test(test_forked),
         cmocka_unit_test(test_no_lock_to_be_had),
         cmocka_unit_test(test_left_by_a_child),
     };

@@ -41,6 +41,7 @@ SIZE(ld_response_wish, 96);
 SIZE(ld_watch, 16);
 SIZE(ld_run_options, 64);
 SIZE(ld_sink, 72);
+SIZE(ld_study_range, 16);
 SIZE(ld_study_options, 72);
 SIZE(ld_study_over, 64);
 SIZE(ld_study_question, 64);

@@ -11,6 +11,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/lock_file.h"
 #include "studies/run/join_state.h"
 #include "studies/run/worker.h"
 
@@ -273,7 +274,7 @@ static ld_status keep(study_join *self, int lock, ld_error *error)
     self->keeping = self->publish = true;
     ld_status status = join_state_write(&beginning, &self->claims, error);
     if (status) {
-        close(lock);
+        lock_file_release(lock);
         return status;
     }
     status = keeper_open(&self->keeper, self->study, &place, error);

@@ -210,8 +210,7 @@ static bool is_at_work(const char *path)
     int lock;
     store_lock_name(path, name);
     bool taken = lock_file_try(name, path, &lock, NULL) == LD_ERR_INPUT;
-    if (lock >= 0)
-        close(lock);
+    lock_file_release(lock);
     return taken;
 }
 

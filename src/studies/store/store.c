@@ -450,7 +450,6 @@ void store_close(study_store *self)
         sqlite3_exec(self->database, "PRAGMA journal_mode = DELETE", NULL, NULL, NULL);
     sqlite3_close(self->database);
     pending_close(&self->pending);
-    if (self->lock >= 0)
-        close(self->lock);
+    lock_file_release(self->lock);
     *self = (study_store){.lock = -1};
 }
