@@ -132,7 +132,9 @@ static tree_node *apply_override(scenario_reader *reader, tree_node *root, size_
                             .first_line = before ? 1 : (int)(number - from->set_before) + 1,
                             .within = ""};
     tree_node *over = source->text ? parse_override(reader, source) : NULL;
-    return over ? tree_merge(reader, root, over, "") : root;
+    root = over ? tree_merge(reader, root, over, "") : root;
+    measures_write_out(reader, root, false);
+    return root;
 }
 
 // ---- the whole

@@ -149,6 +149,13 @@ class TestMeasures(Case):
                             "--what", "measure.side")
             self.assertIn("measure.side", shown)
 
+    def test_one_is_replaced_by_its_name(self):
+        for given in ({"side": "yaw_rate"}, [{"side": "yaw_rate"}],
+                      [{"name": "side", "expression": "yaw_rate"}]):
+            result = ld.Scenario.read(FIXED, {"run.end": "tip", "measures": given,
+                                              "measures.side": "2 * pitch_rate"}).run()
+            self.assertEqual(of(result, "measure.side"), 2 * of(result, "pitch_rate"))
+
     def test_what_is_wrong_is_said(self):
         for text, why in (("exit_speed + tip.y", 'found m/s and m; expected one unit'),
                           ("exit_sped", 'did you mean "exit_speed"'),
