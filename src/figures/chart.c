@@ -101,7 +101,7 @@ static void set_ranges(drawn_curve *drawn, const chart *self, double x[2], doubl
     if (self->levelled)
         y[0] = fmin(y[0], self->level), y[1] = fmax(y[1], self->level);
     room_beside(self, x);
-    double room = fmax(0.06 * (y[1] - y[0]), 1e-9 * fmax(fabs(y[0]), fabs(y[1])));
+    double room = fmax(0.06 * (y[1] - y[0]), 1e-6 * fmax(fabs(y[0]), fabs(y[1])));
     if (!(x[1] > x[0]))
         x[0] = 0, x[1] = 1;
     if (!(room > 0))

@@ -291,7 +291,7 @@ static void margins_of_a_loop(void **state)
         "platform.elevation.stabiliser.delay=5 ms",
         "optimise={over: {platform.elevation.stabiliser.kd: [1e5 N.m.s/rad, 6e5 N.m.s/rad, log]}, "
         "least: {of: t_rear}, subject_to: [{take: gain_margin, of: elevation, at_least: 2}], "
-        "evaluations: 12}"};
+        "evaluations: 6}"};
     ld_model *model;
     ld_messages messages;
     ld_status status;
