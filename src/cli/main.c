@@ -56,6 +56,8 @@ static const command commands[] = {
          "launchdyn study plot out --over rocket.lock.release_force -o lock.svg|Results over a "
          "swept key, with "
          "intervals\n"
+         "launchdyn study scenario.yaml --sensitivity total --out rows|Run rows of launches for "
+         "Sobol indices\n"
          "launchdyn study export out --csv all.csv|Results of all rockets as a table",
      .run = command_study,
      .in_child = true},

@@ -5,6 +5,7 @@
 
 #include "base/printed.h"
 #include "math/functions.h"
+#include "model/blocks/limits.h"
 #include "studies/plan/draw.h"
 #include "studies/statistics/sensitivity.h"
 
@@ -36,22 +37,52 @@ ld_status influence_check(const study_data *data, ld_index index, ld_error *erro
 
 // ---- runs in their rows
 
-// Values of a result [rows][runs of a row][rockets], NaN where there are none.
+// Values of a result [rows][runs of a row][rockets], NaN where there are none, of the rows that
+// have any.
 typedef struct run_grid {
     int64_t rows, rockets;
     int row;
+    int64_t *number; // [rows] from 0, rises
     double *value;
 } run_grid;
+
+// A value's place among the rows; false where a database that was forged says something else.
+static bool find_row(const study_data *data, const study_values *values, size_t i, int64_t *row,
+                     int *run)
+{
+    if (values->sample[i] < 1 || values->rocket[i] < 1 || values->rocket[i] > LD_MAX_FIRINGS)
+        return false;
+    const int64_t number = (values->sample[i] - 1) / data->point_count;
+    *row = number / data->plan.row;
+    *run = (int)(number % data->plan.row);
+    return true;
+}
+
+// Counts rows and rockets, and lists the rows.
+static void count_rows(const study_data *data, const study_values *values, run_grid *grid)
+{
+    int64_t row;
+    int run;
+    for (size_t i = 0; i < values->count; i++) {
+        if (!find_row(data, values, i, &row, &run))
+            continue;
+        if (grid->rows == 0 || grid->number[grid->rows - 1] != row)
+            grid->number[grid->rows++] = row;
+        if (values->rocket[i] > grid->rockets)
+            grid->rockets = values->rocket[i];
+    }
+}
 
 static ld_status make_grid(const study_data *data, const study_values *values, run_grid *grid,
                            ld_error *error)
 {
-    *grid = (run_grid){.row = data->plan.row};
-    for (size_t i = 0; i < values->count; i++)
-        if (values->rocket[i] > grid->rockets)
-            grid->rockets = values->rocket[i];
-    if (values->count > 0)
-        grid->rows = (values->sample[values->count - 1] - 1) / data->point_count / grid->row + 1;
+    int64_t row, at = 0;
+    int run;
+    *grid =
+        (run_grid){.row = data->plan.row, .number = malloc((values->count + 1) * sizeof(int64_t))};
+    if (!grid->number)
+        return no_memory(error);
+    count_rows(data, values, grid);
     const size_t cells = (size_t)(grid->rows * grid->row * grid->rockets);
     grid->value = malloc((cells + 1) * sizeof(double));
     if (!grid->value)
@@ -59,8 +90,11 @@ static ld_status make_grid(const study_data *data, const study_values *values, r
     for (size_t i = 0; i < cells; i++)
         grid->value[i] = NAN;
     for (size_t i = 0; i < values->count; i++) {
-        int64_t run = (values->sample[i] - 1) / data->point_count;
-        grid->value[run * grid->rockets + values->rocket[i] - 1] = values->value[0][i];
+        if (!find_row(data, values, i, &row, &run))
+            continue;
+        at += grid->number[at] != row;
+        grid->value[(at * grid->row + run) * grid->rockets + values->rocket[i] - 1] =
+            values->value[0][i];
     }
     return LD_OK;
 }
@@ -117,9 +151,10 @@ static void gather(const study_data *data, const run_grid *grid, const influence
     const bool trajectory = plan->kind == LD_PLAN_MORRIS;
     columns->count = 0;
     for (int64_t row = 0; row < grid->rows; row++) {
-        int turn = trajectory ? draw_turn(plan->seed, plan->factors, row + 1, number) : 0;
-        double step = trajectory ? draw_step(plan->seed, of->factor->name, row + 1) : 1;
-        int64_t group = row * grid->row / data->strata;
+        const int64_t sample = grid->number[row] + 1;
+        int turn = trajectory ? draw_turn(plan->seed, plan->factors, sample, number) : 0;
+        double step = trajectory ? draw_step(plan->seed, of->factor->name, sample) : 1;
+        int64_t group = grid->number[row] * grid->row / data->strata;
         for (int64_t rocket = 0; rocket < grid->rockets; rocket++) {
             double runs[3] = {run_value(grid, row, 0, rocket), run_value(grid, row, 1, rocket),
                               run_value(grid, row, trajectory ? 1 : number + 2, rocket)};
@@ -158,6 +193,7 @@ static ld_status find_by_rows(const study_data *data, const study_values *values
         status = find_one(data, &columns, &list[i], error);
     }
     free_columns(&columns);
+    free(grid.number);
     free(grid.value);
     return status;
 }
