@@ -163,7 +163,8 @@ static ld_status add_charts(bar_page *self, ld_error *error)
         for (int p = 0; p < data->point_count && !status && self->charts < most; p++)
             status = add_chart(self, &data->point[p], self->column[i], error);
     if (!status && self->charts == 0)
-        return ld_fail(error, LD_ERR_INPUT, "nothing to draw: no factor moves %s",
+        return ld_fail(error, LD_ERR_INPUT,
+                       "nothing to draw: fewer than three complete rows, or no factor moves %s",
                        self->question->what ? self->question->what : "these results");
     return status;
 }

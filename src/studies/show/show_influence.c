@@ -1,6 +1,7 @@
 #include "studies/show/show_influence.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -40,6 +41,7 @@ static void print_percent(FILE *stream, int width, const estimate *e)
 static void print_indices(FILE *stream, const influence *list, int count, bool by_first)
 {
     double sum = 0;
+    bool known = false;
     fprintf(stream, "%-*s %-*s %-*s %s\n", NAME, "", CELL, by_first ? "first order" : "total", CELL,
             by_first ? "total" : "first order", "with others: total less first");
     for (int i = 0; i < count; i++) {
@@ -49,9 +51,11 @@ static void print_indices(FILE *stream, const influence *list, int count, bool b
         print_percent(stream, CELL, by_first ? &of->total : &of->first);
         print_percent(stream, 0, &of->together);
         fputc('\n', stream);
+        known |= !isnan(of->first.value);
         sum += isnan(of->first.value) ? 0 : of->first.value;
     }
-    fprintf(stream, "%-*s %.3g\n", NAME, "first orders, sum", 100 * sum);
+    if (known)
+        fprintf(stream, "%-*s %.3g\n", NAME, "first orders, sum", 100 * sum);
 }
 
 static void print_effects(FILE *stream, const influence *list, int count, double factor)
