@@ -26,7 +26,7 @@ static void test_help_and_version(void **state)
     assert_int_equal(run("launchdyn --version"), 0);
     assert_memory_equal(shell.out, "launchdyn ", 10);
     assert_int_equal(run("launchdyn help"), 0);
-    expect_in(shell.out, "  modes     FILE       List natural frequencies");
+    expect_in(shell.out, "  modes        FILE       List natural frequencies");
     assert_string_equal(shell.err, "");
     assert_int_equal(run("launchdyn help >a; launchdyn --help >b; cmp a b"), 0);
     assert_int_equal(run("launchdyn help run"), 0);
