@@ -199,7 +199,9 @@ int command_fit(const command *self, int argc, char **argv)
     wishes.log_count = count_texts(wishes.logs);
     wishes.file_count = line.count > 0 ? line.count - 1 : 0;
     code = EXIT_INPUT;
-    if (line.count < 1 || wishes.file_count + wishes.log_count == 0)
+    if (line.count > 0 && wishes.file_count + wishes.log_count == 0)
+        command_complain("fit requires DATA or --log; see launchdyn fit --help");
+    else if (line.count < 1)
         command_complain("fit requires %s; see launchdyn fit --help", self->arguments);
     else if (wrong_number(&wishes))
         command_complain("%s", wrong_number(&wishes));
