@@ -27,6 +27,7 @@ typedef struct fit_estimate {
     double low, high;        // of the 95 % interval
     bool open[2];            // that end is the bound
     bool at_bound;
+    bool by_deviation; // the interval, for the profile found lower minima to the end
 } fit_estimate;
 
 // How far simulated means are from measured ones, and whether noise alone would be as far.
@@ -48,7 +49,7 @@ struct ld_fit {
     fit_log log[FIT_MOST_LOGS];
     fit_minimum minimum;
     bool weighed_again; // for correlated residuals of series: chi2 of starts is of before
-    bool rough;         // profiles found lower minima to the end: intervals are by deviations
+    int rough;          // keys whose profile found lower minima to the end
     int64_t simulated;  // launches
     double inflation, inflated_freedom; // of the covariance, of Student's t; infinite: normal
     double level;                       // rise of chi2 at the ends of intervals

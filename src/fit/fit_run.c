@@ -163,7 +163,7 @@ static void fill_estimates(ld_fit *self)
         found->value = fit_key_value(key, self->minimum.best.p[i]);
         found->at_bound = self->minimum.at_bound[i];
         found->deviation = key->width * sqrt(variance * self->inflation);
-        if (i >= self->own_keys || self->rough)
+        if (i >= self->own_keys || found->by_deviation)
             fill_interval(self, i, key->width * sqrt(variance));
     }
 }
@@ -186,21 +186,26 @@ static ld_status find_interval(ld_fit *self, const fit_problem *problem, int i, 
     return status;
 }
 
-// Where profiles find lower minima again and again, intervals follow from the deviations.
+// Where profiles find lower minima again and again, the intervals of their keys follow from the
+// deviations.
 static ld_status find_intervals(ld_fit *self, const fit_problem *problem, ld_error *error)
 {
     enum { TIMES = 5 };
     ld_status status = LD_OK;
     bool lower = true;
-    for (int time = 0; time < TIMES && lower && !status; time++) {
-        lower = false;
+    self->rough = 0;
+    for (int time = 1; time <= TIMES && lower && !status; time++) {
         find_quality(self);
         find_inflation(self);
-        for (int i = 0; i < self->own_keys && !status && !lower; i++)
+        lower = false;
+        for (int i = 0; i < self->own_keys && !status && !lower; i++) {
             status = find_interval(self, problem, i, &lower, error);
+            self->estimate[i].by_deviation = lower;
+            self->rough += lower && time == TIMES;
+            lower = lower && time < TIMES;
+        }
     }
     find_quality(self);
-    self->rough = lower;
     self->level = interval_factor(self) * interval_factor(self);
     fill_estimates(self);
     return status;

@@ -153,10 +153,12 @@ static void print_keys(const ld_fit *fit, FILE *stream)
     }
     if (open > 0)
         fputs("* the interval reaches the bound\n", stream);
-    if (fit->rough)
-        fputs("intervals by the deviations: chi2 is too rough along the keys for profiles; reduce "
-              "run.tolerance\n",
-              stream);
+    if (fit->rough > 0)
+        fprintf(
+            stream,
+            "interval%s of %d key%s by the deviation%s: chi2 is too rough for a profile; reduce "
+            "run.tolerance\n",
+            plural(fit->rough), fit->rough, plural(fit->rough), plural(fit->rough));
 }
 
 static void print_correlations(const ld_fit *fit, FILE *stream)

@@ -376,7 +376,10 @@ static ld_status find_end(profile *self, double z, double first, double bound, f
     *end = (fit_end){bound, true};
     for (int i = 0; i < MOST; i++) {
         ld_status status = find_rise(self, p, &rise, error);
-        if (status || is_lower(self) || (p == bound && rise <= z))
+        bool at_bound = p == bound && rise <= z;
+        if (at_bound)
+            *end = (fit_end){bound, true};
+        if (status || is_lower(self) || at_bound)
             return status;
         *end = (fit_end){p, isinf(rise)};
         if (fabs(rise - z) <= close * z)

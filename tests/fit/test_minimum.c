@@ -300,6 +300,42 @@ static void test_starts(void **state)
     fit_minimum_free(&several);
 }
 
+// tanh(10 (p - 0.5)): chi2 rises to 1 and no further, so that the data limit the key nowhere.
+static ld_status step_rows(void *self, int count, const double *points, double *residuals,
+                           bool *there, ld_error *error)
+{
+    (void)self;
+    (void)error;
+    for (int i = 0; i < count; i++) {
+        there[i] = true;
+        residuals[i] = tanh(10 * (points[i] - 0.5));
+    }
+    return LD_OK;
+}
+
+static void test_saturated(void **state)
+{
+    (void)state;
+    const double none[KEYS] = {INFINITY}, zero[KEYS] = {0}, first[KEYS] = {0.45};
+    const fit_problem problem = {.keys = 1,
+                                 .residuals = 1,
+                                 .prior_mean = zero,
+                                 .prior_deviation = none,
+                                 .evaluate = step_rows,
+                                 .stage = no_stage};
+    ld_error error;
+    fit_minimum minimum;
+    fit_end end[2];
+    bool lower;
+    assert_int_equal(fit_minimise(&problem, 1, first, 1, streams, &minimum, &error), LD_OK);
+    CHECK_NEAR("deviation of a key that is not limited", sqrt(minimum.covariance[0]), 0.1, 1e-3);
+    assert_int_equal(fit_profile(&problem, &minimum, 0, 1.96, end, &lower, &error), LD_OK);
+    assert_true(end[0].open && end[1].open);
+    CHECK_NEAR("interval, from", end[0].p, 0, 0);
+    CHECK_NEAR("interval, to", end[1].p, 1, 0);
+    fit_minimum_free(&minimum);
+}
+
 // ---- keys without effect
 
 static ld_status idle_rows(void *self, int count, const double *points, double *residuals,
@@ -328,8 +364,9 @@ static void test_idle(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_linear), cmocka_unit_test(test_bound),
-                                       cmocka_unit_test(test_curve), cmocka_unit_test(test_starts),
-                                       cmocka_unit_test(test_idle)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_linear),    cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_curve),     cmocka_unit_test(test_starts),
+        cmocka_unit_test(test_saturated), cmocka_unit_test(test_idle)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
