@@ -111,7 +111,7 @@ static ld_status make_points(batch *self, ld_error *error)
 
 static bool go_on(void *self)
 {
-    const ld_optimise_options *options = self;
+    const ld_optimise_options *options = ((const candidates *)self)->options;
     return !options->go_on || options->go_on(options->self);
 }
 
@@ -149,8 +149,7 @@ static bool run_task(void *user, int worker, int task)
                                    (size_t)sample * (size_t)(of->rockets * of->results)];
     if (self->hopeless[point])
         return true;
-    worker_run(own, (int64_t)(self->first + sample) * self->count + point + 1, go_on,
-               (void *)(uintptr_t)all->options);
+    worker_run(own, (int64_t)(self->first + sample) * self->count + point + 1, go_on, all);
     const study_record *record = own->record;
     bool ends = record->outcome == LD_ERR_INTERRUPTED || record->outcome == LD_ERR_MEMORY;
     const char *missing = record->outcome ? NULL : take_results(of, &all->study, record, number);
@@ -364,12 +363,13 @@ static ld_status make_study(candidates *self, ld_error *error)
     const ld_optimisation *of = self->of;
     ld_study *study = &self->study;
     size_t room = (size_t)of->keys + 1;
-    *study = (ld_study){.nominal = (ld_model *)(uintptr_t)of->model, .points = 1};
-    study->model = calloc(room, sizeof *study->model);
+    *study = (ld_study){.points = 1};
+    study->model = calloc(room + 1, sizeof *study->model); // the last is the nominal one
     study->sampler = calloc(room, sizeof *study->sampler);
     if (!study->model || !study->sampler)
         return no_memory(error);
-    study->model[0] = *of->model;
+    study->model[0] = study->model[room] = *of->model;
+    study->nominal = &study->model[room];
     ld_status status = sampler_create(&study->sampler[0], &study->model[0], error);
     if (status)
         return status;
