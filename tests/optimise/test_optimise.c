@@ -127,6 +127,9 @@ static void at_the_limit(void **state)
                 number_in(text, "found", "value") / launch(mass, "rocket.1.t_rear") - 1, 1e-14);
     assert_true(launch(mass, "rocket.1.exit_speed") <= 38);
     assert_true(isnan(number_in(text, "found", "low")));
+    assert_non_null(strstr(strstr(text, "\"candidates\": ["), "\"holds\": false"));
+    assert_non_null(strstr(text, "\"holds\": true")); // the best, which comes first
+    assert_true(strstr(text, "\"holds\": true") < strstr(text, "\"holds\": false"));
     free(text);
     ld_model_free(model);
 }
