@@ -146,7 +146,7 @@ class _Pool:
             self._executor.shutdown(wait=patient)
 
 
-class Mapping:
+class MappedStudy:
     """The ranges of a study on their way."""
 
     def __init__(self, study: Study, keeper: _Keeper, executors: Executors,

@@ -20,7 +20,7 @@ from ._library import (COUNTS_TOLD, GO_ON, ld_error, ld_estimate, ld_report, ld_
                        ld_study_cell, ld_study_footprint, ld_study_influence, ld_study_options,
                        ld_study_over, ld_study_statistics, ld_study_values,
                        ld_study_view, library)
-from ._mapping import Executors, Mapping, _Keeper
+from ._mapping import Executors, MappedStudy, _Keeper
 from ._memory import Array, Handle, Held, coded, coded_path, printed, text_of, texts
 from ._progress import Progress, followed
 from ._values import Sets, set_texts
@@ -223,7 +223,7 @@ class Study:
         done, last, went = -1, time.monotonic(), False
         with Interrupt() as interrupt, followed(progress) as told, \
                 _Keeper(self.handle, folder) as keeper:
-            mapping = Mapping(self, keeper, executor, ahead)
+            mapping = MappedStudy(self, keeper, executor, ahead)
             try:
                 while not interrupt.asked and mapping.step():
                     counts = keeper.counts
