@@ -105,7 +105,7 @@ static void write_log(const felt *all, int set, int noisy)
             "clock: {find: acc, offset: -0.29 s, within: 50 ms}\n"
             "sensors:\n"
             "  - {column: acc, kind: accelerometer, axis: 1 0 0, noise: %g m/s2, to: 145 ms,\n"
-            "     bias: 0.2 m/s2, bias_uncertainty: 0.5 m/s2, scale_uncertainty: 2e-3}\n"
+            "     bias: 0.2 m/s2, bias_uncertainty: 1e-4 m/s2, scale_uncertainty: 2e-3}\n"
             "  - {column: gyro, kind: gyro, axis: 1 0 0, noise: %g rad/s, to: 145 ms}\n"
             "results:\n"
             "  - {of: exit_speed, measured: %.17g m/s, uncertainty: 0.05 m/s}\n"
@@ -201,6 +201,8 @@ static void test_exact(void **state)
         CHECK_BELOW(names[i], (of.value[i] - true_value[i]) / of.deviation[i], 0.05);
     }
     CHECK_BELOW("offset of the log [s]", of.offset - of.value[2], 0);
+    // the data know the bias thirty times less well than its prior
+    CHECK_NEAR("deviation of the bias [m/s2]", of.deviation[3], 1e-4, 1e-6);
     ld_model_free(model);
 }
 
