@@ -65,16 +65,22 @@ static ld_status copy_error(const ld_run *run, ld_error *error)
 
 // ---- forward
 
-static ld_status begin(const ld_simulation *simulation, const ld_run_options *options, bool outside,
-                       const launch_start *given, step_course *course, ld_run **out,
-                       ld_error *error)
+// What a run is given beside its scenario; NULL: the scenario's.
+typedef struct run_given {
+    bool outside; // its steps are taken outside
+    const launch_start *start;
+    step_course *course;
+} run_given;
+
+static ld_status begin(const ld_simulation *simulation, const ld_run_options *options,
+                       const run_given *given, ld_run **out, ld_error *error)
 {
     double start = cpu_time_now();
-    ld_run *run = *out = run_create(simulation, options, outside);
+    ld_run *run = *out = run_create(simulation, options, given->outside);
     if (!run)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a run");
-    run->start = given;
-    run->launch.course = course;
+    run->start = given->start;
+    run->launch.course = given->course;
     if (!run->status)
         run->status =
             has_launch(run) ? launch_begin(run) : flight_alone_begin(simulation, &run->error);
@@ -86,13 +92,13 @@ ld_status ld_run_begin(const ld_simulation *simulation, const ld_run_options *op
                        ld_error *error)
 {
     assert(simulation && out);
-    return begin(simulation, options, false, NULL, NULL, out, error);
+    return begin(simulation, options, &(run_given){0}, out, error);
 }
 
 ld_status run_begin_exchange(const ld_simulation *simulation, const ld_run_options *options,
                              ld_run **out, ld_error *error)
 {
-    return begin(simulation, options, true, NULL, NULL, out, error);
+    return begin(simulation, options, &(run_given){.outside = true}, out, error);
 }
 
 static ld_status advance(ld_run *run, double t, bool to_event, ld_error *error)
@@ -352,16 +358,15 @@ static ld_status begin_exit_error(ld_run *run)
 }
 
 static ld_status run_whole(const ld_simulation *simulation, const ld_run_options *options,
-                           const launch_start *start, step_course *course, ld_summary *summary,
-                           ld_error *error)
+                           const run_given *given, ld_summary *summary, ld_error *error)
 {
     ld_run *run;
-    ld_status status = begin(simulation, options, false, start, course, &run, error);
+    ld_status status = begin(simulation, options, given, &run, error);
     if (!run) {
         *summary = (ld_summary){0};
         return status;
     }
-    if (!run->status && !start && !course)
+    if (!run->status && !given->start && !given->course)
         run->status = begin_exit_error(run);
     ld_run_advance(run, INFINITY, error);
     return ld_run_end(run, summary, error);
@@ -375,13 +380,14 @@ ld_status ld_simulation_run(const ld_simulation *simulation, const ld_run_option
     if (!error)
         error = &own;
     *error = (ld_error){0};
-    return run_whole(simulation, options, NULL, NULL, summary, error);
+    return run_whole(simulation, options, &(run_given){0}, summary, error);
 }
 
 ld_status run_course(const ld_simulation *simulation, const ld_run_options *options,
                      step_course *course, ld_summary *summary, ld_error *error)
 {
-    ld_status status = run_whole(simulation, options, NULL, course, summary, error);
+    ld_status status =
+        run_whole(simulation, options, &(run_given){.course = course}, summary, error);
     if (!status && course->failed)
         status = ld_fail(error, LD_ERR_MEMORY, "no memory for the steps of a run");
     return status;
@@ -390,5 +396,5 @@ ld_status run_course(const ld_simulation *simulation, const ld_run_options *opti
 ld_status run_from(const ld_simulation *simulation, const launch_start *start, ld_summary *summary,
                    ld_error *error)
 {
-    return run_whole(simulation, NULL, start, NULL, summary, error);
+    return run_whole(simulation, NULL, &(run_given){.start = start}, summary, error);
 }

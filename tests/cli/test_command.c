@@ -42,8 +42,8 @@ static void test_help_and_version(void **state)
     // a space at least between a command's arguments and what it does
     assert_int_equal(run("launchdyn help | grep -E 'DIR[A-Z]|FILE[A-Z]|\\][A-Z]'"), 1);
     assert_int_equal(run("launchdyn help"), 0);
-    expect_in(shell.out, "  study     FILE | show DIR | plot DIR | export DIR | merge DIR\n"
-                         "                       Run a Monte Carlo study or a sweep");
+    expect_in(shell.out, "  study        FILE | show DIR | plot DIR | export DIR | merge DIR\n"
+                         "                          Run a Monte Carlo study or a sweep");
 }
 
 static void test_wrong_words(void **state)

@@ -142,7 +142,8 @@ static const char unrelated[] =
     "pig pillow pocket police potato queen question rabbit radio rain restaurant river "
     "roof rope salad sand school";
 
-// Of 200 English words in every block, few are near enough to a key.
+// Of 200 English words in every block, few are near enough to a key: 10, 0.21 %, before `optimise`,
+// whose keys `at_most`, `and` and `over` are a letter from almost, sand and oven.
 static void test_unrelated_words(void **state)
 {
     (void)state;
@@ -165,9 +166,9 @@ static void test_unrelated_words(void **state)
         suggested += blocks;
     }
     CHECK_BELOW("unrelated words", words - 200, 0);
-    CHECK_WITHIN("of them with a suggestion in some block", named, 0, 10);
+    CHECK_WITHIN("of them with a suggestion in some block", named, 0, 13);
     CHECK_WITHIN("suggestions in %, over all words and blocks",
-                 share(suggested, (long)words * walk.blocks), 0, 0.21);
+                 share(suggested, (long)words * walk.blocks), 0, 0.235);
 }
 
 // ---- the reader

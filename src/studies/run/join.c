@@ -556,7 +556,7 @@ ld_status ld_study_join(const ld_study *study, const char *folder, const ld_stud
     if (!thread)
         stop(&self, ld_fail(&reason, LD_ERR_MEMORY, "no memory for threads"), &reason);
     else if (!self.stopped)
-        started = worker_start_some(thread, threads, &source);
+        started = worker_start_some(thread, threads, threads, &source);
     serve_until_end(&self);
     while (started > 0)
         pthread_join(thread[--started], NULL);

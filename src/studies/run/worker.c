@@ -265,7 +265,7 @@ int worker_start(pthread_t *thread, const sample_source *from)
     return worker_start_thread(thread, run_all, (void *)from);
 }
 
-int worker_start_some(pthread_t *thread, int count, const sample_source *from)
+int worker_start_some(pthread_t *thread, int count, int of, const sample_source *from)
 {
     ld_error error;
     int started = 0, problem = 0;
@@ -274,8 +274,8 @@ int worker_start_some(pthread_t *thread, int count, const sample_source *from)
         started += !problem;
     }
     if (problem) {
-        ld_fail(&error, LD_ERR_MISSING, "cannot start thread %d of %d: %s", started + 1, count,
-                strerror(problem));
+        ld_fail(&error, LD_ERR_MISSING, "cannot start thread %d of %d: %s",
+                of - count + started + 1, of, strerror(problem));
         from->stop(from->self, LD_ERR_MISSING, &error);
     }
     return started;
@@ -287,7 +287,7 @@ void worker_run_side_by_side(const sample_source *from, int threads)
     int others = threads > 1 ? threads - 1 : 0, started = 0;
     pthread_t *thread = calloc((size_t)others + 1, sizeof *thread);
     if (thread)
-        started = worker_start_some(thread, others, from);
+        started = worker_start_some(thread, others, threads, from);
     else
         from->stop(from->self, ld_fail(&error, LD_ERR_MEMORY, "no memory for threads"), &error);
     worker_run_all(from);

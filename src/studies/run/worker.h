@@ -35,9 +35,9 @@ int worker_start_thread(pthread_t *thread, void *(*work)(void *), void *data);
 // outlive it.
 int worker_start(pthread_t *thread, const sample_source *from);
 
-// Starts `count` of them into thread[count]; returns how many. Where one cannot be had, the source
-// stops.
-int worker_start_some(pthread_t *thread, int count, const sample_source *from);
+// Starts `count` of them, the last ones of `of`, into thread[count]; returns how many. Where one
+// cannot be had, the source stops.
+int worker_start_some(pthread_t *thread, int count, int of, const sample_source *from);
 
 // The same on `threads` threads (fewer than 1 are one), of which the caller's is one.
 void worker_run_side_by_side(const sample_source *from, int threads);
