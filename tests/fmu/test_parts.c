@@ -513,7 +513,7 @@ static void archive_holds_both(void **state)
         shell.out, ".:\nSystemStructure.ssd\nresources\n\nresources:\nlauncher.fmu\n"
                    "vehicle.fmu\n19\nstartConnector=\"base.position.y\" endElement=\"launcher\" "
                    "endConnector=\"input.base.position.y\"/>\n"
-                   "113\n249\n362\n"
+                   "137\n249\n386\n"
                    "<ssd:Connector name=\"input.ignition\" kind=\"input\"><ssc:Boolean/>"
                    "</ssd:Connector>\n"
                    "<ssd:Connector name=\"summary.rocket.1.yaw\" kind=\"output\"><ssc:Real/>"
