@@ -116,26 +116,31 @@ static void test_given_up_meanwhile(void **state)
 static void test_forked(void **state)
 {
     (void)state;
-    int status, ends[2];
+    int status, ends[2], begins[2];
+    char sign;
     assert_int_equal(pipe(ends), 0);
+    assert_int_equal(pipe(begins), 0);
     pid_t holder = fork();
     assert_true(holder >= 0);
     if (holder == 0) {
         take();
         if (fork() == 0) {
             close(ends[1]);
-            char end;
-            _exit(read(ends[0], &end, 1) != 0); // until the test closes its end
+            _exit(write(begins[1], "", 1) != 1 ||
+                  read(ends[0], &sign, 1) != 0); // until the test closes its end
         }
         _exit(0);
     }
     assert_int_equal(waitpid(holder, &status, 0), holder);
+    assert_int_equal(read(begins[0], &sign, 1), 1);
     int lock;
     ld_error error;
     assert_int_equal(lock_file_try(in("x.lock"), "x", &lock, &error), LD_OK);
     lock_file_remove(in("x.lock"), lock);
-    close(ends[0]);
-    close(ends[1]);
+    for (int i = 0; i < 2; i++) {
+        close(ends[i]);
+        close(begins[i]);
+    }
 }
 
 static void test_no_lock_to_be_had(void **state)
