@@ -310,14 +310,16 @@ static ld_status publish_state(study_join *self, double time, ld_error *error)
     return LD_OK;
 }
 
-// Keeps the parts that are there. They are removed once they are settled and the state says so; a
-// damaged one, as after a loss of power, is as if its range had not been run.
-static ld_status keep_parts(study_join *self, double time, ld_error *error)
+// Keeps parts that are there, so many at once; whether there may be more. They are removed once
+// they are settled and the state says so; a damaged one, as after a loss of power, is as if its
+// range had not been run.
+static ld_status keep_some_parts(study_join *self, double time, bool *more, ld_error *error)
 {
     enum { MOST = 256 };
     char(*kept)[CLAIMS_NAME] = malloc(MOST * sizeof *kept);
     claims_parts parts;
     int count = 0;
+    *more = false;
     if (!kept)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the parts of the study");
     ld_status status = claims_parts_begin(&parts, &self->claims, error);
@@ -336,6 +338,16 @@ static ld_status keep_parts(study_join *self, double time, ld_error *error)
     for (int i = 0; i < count && !status; i++)
         unlink(kept[i]);
     free(kept);
+    *more = !status && count == MOST;
+    return status;
+}
+
+static ld_status keep_all_parts(study_join *self, ld_error *error)
+{
+    bool more = true;
+    ld_status status = LD_OK;
+    while (more)
+        status = keep_some_parts(self, now(), &more, error);
     return status;
 }
 
@@ -433,7 +445,7 @@ static ld_status renew(study_join *self, double time, ld_error *error)
 static ld_status serve(study_join *self, double time, ld_error *error)
 {
     ld_status status = LD_OK;
-    bool due = time - self->read >= READ;
+    bool due = time - self->read >= READ, more;
     if (time - self->renewed > self->claims.expiry / 6 || (due && self->state.count == 0))
         status = renew(self, time, error);
     if (!status && self->removed)
@@ -444,7 +456,7 @@ static ld_status serve(study_join *self, double time, ld_error *error)
     if (!status && due && !self->keeping && time - self->heard > SILENCE)
         status = try_to_keep(self, error);
     if (!status && due && self->keeping)
-        status = keep_parts(self, time, error);
+        status = keep_some_parts(self, time, &more, error);
     else if (!status && due)
         status = read_state(self, time, error);
     if (due)
@@ -500,7 +512,7 @@ static ld_status end(study_join *self)
     ld_error error;
     give_up_ranges(self);
     if (self->keeping && self->keeper.open && !self->status && self->claims.me[0]) {
-        ld_status status = keep_parts(self, now(), &error);
+        ld_status status = keep_all_parts(self, &error);
         if (status && join_continues(self))
             stop(self, status, &error);
     }
