@@ -316,15 +316,21 @@ static bool renew_jacobian(exponential_steps *self)
     return refresh_linear(self);
 }
 
+// Tries a step at a rung; its error, infinity where there is none that is finite.
+static double attempt_step(exponential_steps *self, int rung)
+{
+    const exponential_start start = {self->t, self->y, self->slope, self->drift};
+    const exponential_end end = {self->y_end, self->slope_end, self->error};
+    bool failed = exponential_step(self->part->steps, rung, &start, &end);
+    return failed ? INFINITY : size_of_error(self);
+}
+
 // Tries shorter and shorter steps until one has an error that is allowed; RUNGS: there is none.
 static int try_steps(exponential_steps *self, int64_t at, double left, double *error)
 {
     int rung = fitting_rung(self, at, left);
-    const exponential_start start = {self->t, self->y, self->slope, self->drift};
-    const exponential_end end = {self->y_end, self->slope_end, self->error};
     while (rung < RUNGS) {
-        bool failed = exponential_step(self->part->steps, rung, &start, &end);
-        *error = failed ? INFINITY : size_of_error(self);
+        *error = attempt_step(self, rung);
         if (*error <= 1)
             break;
         self->part->rung = *error > 16 && rung + 1 < RUNGS ? rung + 2 : rung + 1;
@@ -358,12 +364,10 @@ static course_step present_control(const linear_part *part)
 
 static int follow_step(exponential_steps *self, int rung, double *error)
 {
-    const exponential_start start = {self->t, self->y, self->slope, self->drift};
-    const exponential_end end = {self->y_end, self->slope_end, self->error};
-    if (rung == RUNGS || exponential_step(self->part->steps, rung, &start, &end))
+    if (rung == RUNGS)
         return RUNGS;
-    *error = size_of_error(self);
-    return rung;
+    *error = attempt_step(self, rung);
+    return isinf(*error) ? RUNGS : rung;
 }
 
 exponential_outcome exponential_steps_step(exponential_steps *self, double t_stop)
