@@ -40,7 +40,7 @@ typedef struct ld_derivative_options {
 /// @param out   free with ld_derivatives_free()
 /// @return LD_OK; LD_ERR_INPUT (no such key, a step that leaves its range or is missing at 0, more
 ///         than one rocket, run.coupling); LD_ERR_LAUNCH and what else ends a run;
-///         LD_ERR_INTERRUPTED; LD_ERR_MEMORY
+///         LD_ERR_MISSING (a thread cannot be started); LD_ERR_INTERRUPTED; LD_ERR_MEMORY
 ld_status ld_derivatives_find(const ld_model *model, const ld_derivative_key *keys, size_t count,
                               const ld_derivative_options *options, ld_derivatives **out,
                               ld_error *error);

@@ -4,7 +4,6 @@
 #include <assert.h>
 #include <math.h>
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +15,7 @@
 #include "quantities/summary.h"
 #include "run/run.h"
 #include "run/simulation_build.h"
-#include "studies/run/worker.h"
+#include "search/side_by_side.h"
 
 // A change of this share of a key: few contacts begin or end in so short a way, and rounding leaves
 // some 1e-8 of a derivative.
@@ -85,23 +84,22 @@ static ld_status check_model(const ld_model *model, size_t keys, ld_error *error
 
 // ---- launches
 
+typedef struct derivative_worker {
+    ld_model *model;
+    ld_simulation *simulation;
+} derivative_worker;
+
 // Launch `number` is that itself (0), left (odd) or right of key (number - 1) / 2.
 typedef struct job {
     ld_derivatives *all;
     const ld_derivative_options *options;
-    const step_course *course; // of the launch itself
-    int launches, done;
-    atomic_int next;
-    atomic_bool stopped;
+    step_course course;        // of the launch itself
+    derivative_worker *worker; // [threads]
+    int launches, threads, done;
     pthread_mutex_t at_work;
     ld_status status;
     ld_error *error;
 } job;
-
-typedef struct worker {
-    ld_model *model;
-    ld_simulation *simulation;
-} worker;
 
 static bool may_continue(void *self, double share)
 {
@@ -123,7 +121,7 @@ static ld_status change_model(const ld_derivatives *all, int number, ld_model *m
     return model_check_drawn(model, error);
 }
 
-static ld_status launch_beside(job *self, worker *by, int number, step_course *course,
+static ld_status launch_beside(job *self, derivative_worker *by, int number, step_course *course,
                                ld_error *error)
 {
     ld_derivative_options asked = *self->options;
@@ -137,84 +135,72 @@ static ld_status launch_beside(job *self, worker *by, int number, step_course *c
     return status;
 }
 
-// The launch first, which keeps its steps; then again by them.
-static ld_status launch_itself(job *self, worker *by, step_course *course, ld_error *error)
+// Keeps its steps; then again by them.
+static ld_status launch_itself(job *self, ld_error *error)
 {
-    ld_status status = launch_beside(self, by, 0, course, error);
+    ld_status status = launch_beside(self, &self->worker[0], 0, &self->course, error);
     if (status)
         return status;
-    step_course_follow(course);
-    return launch_beside(self, by, 0, course, error);
+    step_course_follow(&self->course);
+    return launch_beside(self, &self->worker[0], 0, &self->course, error);
 }
 
-static void report(job *self, ld_status status, const ld_error *error)
+static bool run_task(void *user, int worker, int task)
 {
+    job *self = user;
+    ld_error error;
+    step_course course = step_course_of(&self->course);
+    ld_status status = launch_beside(self, &self->worker[worker], task + 1, &course, &error);
     pthread_mutex_lock(&self->at_work);
     if (status && !self->status) {
         self->status = status;
-        *self->error = *error;
-        self->stopped = true;
+        *self->error = error;
     }
     self->done++;
     if (self->options->progress)
         self->options->progress(self->options->self, self->done, self->launches);
     pthread_mutex_unlock(&self->at_work);
+    return !status;
 }
 
-static void worker_end(worker *self)
+static ld_status make_workers(job *self, ld_error *error)
 {
-    ld_simulation_free(self->simulation);
-    free(self->model);
+    self->worker = calloc((size_t)self->threads, sizeof *self->worker);
+    for (int i = 0; self->worker && i < self->threads; i++)
+        if (!(self->worker[i].model = calloc(1, sizeof *self->worker[i].model)))
+            return no_memory(error);
+    return self->worker ? LD_OK : no_memory(error);
 }
 
-static void *work(void *user)
+static void free_workers(const job *self)
 {
-    job *self = user;
-    worker by = {.model = calloc(1, sizeof *by.model)};
-    ld_error error;
-    if (!by.model)
-        report(self, no_memory(&error), &error);
-    for (int number; by.model && !self->stopped && (number = self->next++) < self->launches;) {
-        step_course course = step_course_of(self->course);
-        report(self, launch_beside(self, &by, number, &course, &error), &error);
+    for (int i = 0; self->worker && i < self->threads; i++) {
+        ld_simulation_free(self->worker[i].simulation);
+        free(self->worker[i].model);
     }
-    worker_end(&by);
-    return NULL;
-}
-
-static ld_status work_side_by_side(job *self)
-{
-    enum { MOST = 2 * DERIVATIVES_MOST_KEYS };
-    pthread_t thread[MOST];
-    int wanted = self->options->threads < MOST ? self->options->threads : MOST, started = 0;
-    while (started + 1 < wanted && started + 2 < self->launches &&
-           !worker_start_thread(&thread[started], work, self))
-        started++;
-    work(self);
-    while (started > 0)
-        pthread_join(thread[--started], NULL);
-    return self->status;
+    free(self->worker);
 }
 
 static ld_status run_all(ld_derivatives *all, const ld_derivative_options *options, ld_error *error)
 {
-    step_course course = {0};
+    const int beside = 2 * all->keys, asked = options->threads > 1 ? options->threads : 1;
     job self = {.all = all,
                 .options = options,
-                .course = &course,
-                .launches = 1 + 2 * all->keys,
-                .next = 1,
+                .launches = 1 + beside,
+                .threads = asked < beside ? asked : beside,
+                .done = 1,
                 .error = error,
                 .at_work = PTHREAD_MUTEX_INITIALIZER};
-    worker by = {.model = calloc(1, sizeof *by.model)};
-    ld_status status = by.model ? launch_itself(&self, &by, &course, error) : no_memory(error);
-    worker_end(&by);
-    if (!status) {
-        self.done = 1;
-        status = work_side_by_side(&self);
-    }
-    step_course_free(&course);
-    return status;
+    const side_by_side work = {
+        .tasks = beside, .threads = self.threads, .self = &self, .run = run_task};
+    ld_status status = make_workers(&self, error);
+    if (!status)
+        status = launch_itself(&self, error);
+    if (!status)
+        status = side_by_side_run(&work, error);
+    free_workers(&self);
+    step_course_free(&self.course);
+    return status ? status : self.status;
 }
 
 // ---- from begin to end

@@ -1,6 +1,5 @@
 #include "fit/fit_launches.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -12,8 +11,8 @@
 #include "model/parts.h"
 #include "quantities/summary.h"
 #include "run/simulation_build.h"
+#include "search/side_by_side.h"
 #include "state/simulation.h"
-#include "studies/run/worker.h"
 
 static ld_status no_memory(ld_error *error)
 {
@@ -130,7 +129,6 @@ typedef struct batch {
     int *leader;  // [count] number of a point
     int *leading; // [leaders] points that lead those to be computed
     int leaders;
-    atomic_int next, worker;
     atomic_bool stopped;
     pthread_mutex_t at_work;
     int first_failed; // task
@@ -187,39 +185,22 @@ static void compute_task(batch *self, fit_worker *worker, int task)
     }
 }
 
-static void *work(void *user)
+static bool run_task(void *user, int worker, int task)
 {
     batch *self = user;
-    const fit_launches *all = self->self;
-    int tasks = self->leaders * (int)all->fit->data.launches, task;
-    fit_worker *worker = &all->worker[self->worker++];
-    while (!self->stopped && (task = self->next++) < tasks)
-        compute_task(self, worker, task);
-    return NULL;
+    compute_task(self, &self->self->worker[worker], task);
+    return !self->stopped;
 }
 
 static ld_status work_side_by_side(batch *self)
 {
-    fit_launches *all = self->self;
-    int tasks = self->leaders * (int)all->fit->data.launches, started = 0, problem = 0;
-    int others = (all->threads < tasks ? all->threads : tasks) - 1;
-    pthread_t *thread = calloc((size_t)(others > 0 ? others : 0) + 1, sizeof *thread);
-    if (!thread)
-        return no_memory(self->error);
-    while (!problem && started < others) {
-        problem = worker_start_thread(&thread[started], work, self);
-        started += !problem;
-    }
-    if (problem) {
-        self->status = ld_fail(self->error, LD_ERR_MISSING, "cannot start thread %d of %d: %s",
-                               started + 2, all->threads, strerror(problem));
-        self->stopped = true;
-    }
-    work(self);
-    while (started > 0)
-        pthread_join(thread[--started], NULL);
-    free(thread);
-    return self->status;
+    const fit_launches *all = self->self;
+    const side_by_side work = {.tasks = self->leaders * (int)all->fit->data.launches,
+                               .threads = all->threads,
+                               .self = self,
+                               .run = run_task};
+    ld_status status = side_by_side_run(&work, self->error);
+    return status ? status : self->status;
 }
 
 // Finds who leads whom; returns how many launches' worth of points the known ones are.
