@@ -1,9 +1,7 @@
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/part_file.h"
 #include "fit/fit_show.h"
 #include "launchdyn/version.h"
 #include "results/json.h"
@@ -191,7 +189,7 @@ void ld_fit_print_json(const ld_fit *fit, FILE *stream)
 
 // ---- files
 
-static bool write_fitted(const ld_fit *fit, const char *folder, FILE *stream)
+static ld_status write_fitted(const ld_fit *fit, const char *folder, ld_error *error)
 {
     found_key key[FIT_MOST_KEYS];
     for (int i = 0; i < fit->own_keys; i++)
@@ -200,33 +198,19 @@ static bool write_fitted(const ld_fit *fit, const char *folder, FILE *stream)
                                   .how = "fitted values (launchdyn fit)",
                                   .keys = fit->own_keys,
                                   .key = key};
-    return found_scenario_write(&found, folder, stream);
+    return found_scenario_write(&found, folder, "fitted.yaml", error);
 }
 
-static ld_status write_file(const ld_fit *fit, const char *folder, const char *name, bool json,
-                            ld_error *error)
+static ld_status print_document(void *user, FILE *stream, ld_error *error)
 {
-    char path[4096];
-    part_file part;
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    ld_status status = part_file_begin(&part, path, error);
-    if (status)
-        return status;
-    FILE *stream = fopen(part.path, "w");
-    if (!stream)
-        return part_file_end(&part, part_file_failed(&part, errno, error), error);
-    bool good = true;
-    if (json)
-        ld_fit_print_json(fit, stream);
-    else
-        good = write_fitted(fit, folder, stream);
-    good = good && !ferror(stream);
-    good = fclose(stream) == 0 && good;
-    return part_file_end(&part, good ? LD_OK : part_file_failed(&part, errno, error), error);
+    const ld_fit *const *fit = user;
+    (void)error;
+    ld_fit_print_json(*fit, stream);
+    return LD_OK;
 }
 
 ld_status fit_write(const ld_fit *fit, const char *folder, ld_error *error)
 {
-    ld_status status = write_file(fit, folder, "fit.json", true, error);
-    return status ? status : write_file(fit, folder, "fitted.yaml", false, error);
+    ld_status status = found_file_write(print_document, &fit, folder, "fit.json", error);
+    return status ? status : write_fitted(fit, folder, error);
 }

@@ -312,18 +312,6 @@ static ld_status tell_interrupted(const fit_launches *launches, ld_error *error)
                    launches->options->folder ? "; the same command continues" : "");
 }
 
-static ld_status make_folder(const char *folder, ld_error *error)
-{
-    char path[4096];
-    size_t before;
-    if (!folder)
-        return LD_OK;
-    if (strlen(folder) >= sizeof path)
-        return ld_fail(error, LD_ERR_INPUT, "the folder's name is too long");
-    snprintf(path, sizeof path, "%s", folder);
-    return folder_make(path, &before, error);
-}
-
 ld_status ld_fit_run(ld_fit *self, const ld_fit_options *given, ld_error *error)
 {
     assert(self);
@@ -335,8 +323,8 @@ ld_status ld_fit_run(ld_fit *self, const ld_fit_options *given, ld_error *error)
     if (options.starts < 1 || options.starts > FIT_MOST_STARTS)
         return ld_fail(error, LD_ERR_INPUT, "expected 1 to %d starts", FIT_MOST_STARTS);
     ld_status status = check_data(self, error);
-    if (!status)
-        status = make_folder(options.folder, error);
+    if (!status && options.folder)
+        status = folder_ensure(options.folder, error);
     if (status)
         return status;
     self->done = false;

@@ -1,8 +1,6 @@
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/part_file.h"
 #include "launchdyn/version.h"
 #include "optimise/optimise.h"
 #include "results/json.h"
@@ -143,7 +141,7 @@ void ld_optimise_print_json(const ld_optimisation *self, FILE *stream)
 
 // ---- files
 
-static bool write_found(const ld_optimisation *self, const char *folder, FILE *stream)
+static ld_status write_found(const ld_optimisation *self, const char *folder, ld_error *error)
 {
     found_key key[LD_MAX_BOUNDS];
     for (int i = 0; i < self->keys; i++)
@@ -153,33 +151,19 @@ static bool write_found(const ld_optimisation *self, const char *folder, FILE *s
                                   .how = "optimised values (launchdyn optimise)",
                                   .keys = self->keys,
                                   .key = key};
-    return found_scenario_write(&found, folder, stream);
+    return found_scenario_write(&found, folder, "optimised.yaml", error);
 }
 
-static ld_status write_file(const ld_optimisation *self, const char *folder, const char *name,
-                            bool json, ld_error *error)
+static ld_status print_document(void *user, FILE *stream, ld_error *error)
 {
-    char path[4096];
-    part_file part;
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    ld_status status = part_file_begin(&part, path, error);
-    if (status)
-        return status;
-    FILE *stream = fopen(part.path, "w");
-    if (!stream)
-        return part_file_end(&part, part_file_failed(&part, errno, error), error);
-    bool good = true;
-    if (json)
-        ld_optimise_print_json(self, stream);
-    else
-        good = write_found(self, folder, stream);
-    good = good && !ferror(stream);
-    good = fclose(stream) == 0 && good;
-    return part_file_end(&part, good ? LD_OK : part_file_failed(&part, errno, error), error);
+    const ld_optimisation *const *self = user;
+    (void)error;
+    ld_optimise_print_json(*self, stream);
+    return LD_OK;
 }
 
 ld_status optimise_write(const ld_optimisation *self, const char *folder, ld_error *error)
 {
-    ld_status status = write_file(self, folder, "optimise.json", true, error);
-    return status ? status : write_file(self, folder, "optimised.yaml", false, error);
+    ld_status status = found_file_write(print_document, &self, folder, "optimise.json", error);
+    return status ? status : write_found(self, folder, error);
 }

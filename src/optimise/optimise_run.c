@@ -98,18 +98,6 @@ static void clear(ld_optimisation *self)
     self->done = false;
 }
 
-static ld_status make_folder(const char *folder, ld_error *error)
-{
-    char path[4096];
-    size_t before;
-    if (!folder)
-        return LD_OK;
-    if (strlen(folder) >= sizeof path)
-        return ld_fail(error, LD_ERR_INPUT, "the folder's name is too long");
-    snprintf(path, sizeof path, "%s", folder);
-    return folder_make(path, &before, error);
-}
-
 static ld_status search_and_check(ld_optimisation *self, candidates *all, ld_error *error)
 {
     ld_status status = search(self, all, error);
@@ -130,7 +118,7 @@ ld_status ld_optimise_run(ld_optimisation *self, const ld_optimise_options *give
     candidates all;
     const ld_optimise_options options = given ? *given : (ld_optimise_options){0};
     error = error ? error : &own;
-    ld_status status = make_folder(options.folder, error);
+    ld_status status = options.folder ? folder_ensure(options.folder, error) : LD_OK;
     if (status)
         return status;
     clear(self);

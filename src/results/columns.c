@@ -8,17 +8,6 @@
 #include "results/folder.h"
 #include "results/history.h"
 
-static ld_status make_folder(const char *folder, ld_error *error)
-{
-    char *path = strdup(folder);
-    size_t there = 0;
-    if (!path)
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the folder's name");
-    ld_status status = folder_make(path, &there, error);
-    free(path);
-    return status;
-}
-
 static ld_status write_file(const char *path, const number_columns *columns, ld_error *error)
 {
     const size_t width = columns->width;
@@ -46,7 +35,7 @@ ld_status columns_write(const char *folder, const char *name, const number_colum
     part_file part;
     if (!*folder || snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
         return ld_fail(error, LD_ERR_INPUT, "the folder has no name, or one that is too long");
-    ld_status status = make_folder(folder, error);
+    ld_status status = folder_ensure(folder, error);
     if (!status)
         status = part_file_begin(&part, path, error);
     if (status)

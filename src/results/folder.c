@@ -29,6 +29,16 @@ ld_status folder_make(char *path, size_t *there, ld_error *error)
     }
 }
 
+ld_status folder_ensure(const char *path, ld_error *error)
+{
+    char made[4096];
+    size_t there;
+    if (!*path || strlen(path) >= sizeof made)
+        return ld_fail(error, LD_ERR_INPUT, "the folder has no name, or one that is too long");
+    strcpy(made, path);
+    return folder_make(made, &there, error);
+}
+
 void folder_remove(char *path, size_t there)
 {
     for (size_t end = strlen(path); end > there; end--)

@@ -10,6 +10,9 @@
 // of it where nothing had to be made.
 ld_status folder_make(char *path, size_t *there, ld_error *error);
 
+// The same of a name that stays as it is. LD_ERR_INPUT: it is empty or too long.
+ld_status folder_ensure(const char *path, ld_error *error);
+
 // Removes what folder_make() made, as far as it is empty.
 void folder_remove(char *path, size_t there);
 

@@ -100,13 +100,40 @@ static bool write_whole(const found_scenario *self, FILE *stream)
     return true;
 }
 
-bool found_scenario_write(const found_scenario *self, const char *folder, FILE *stream)
+typedef struct found_file {
+    const found_scenario *found;
+    const char *folder;
+} found_file;
+
+static ld_status write_scenario(void *user, FILE *stream, ld_error *error)
 {
+    const found_file *self = user;
+    const found_scenario *found = self->found;
     char file[PATH_MAX], there[PATH_MAX];
-    if (!can_include(self->model, file) || !realpath(folder, there))
-        return write_whole(self, stream);
-    fprintf(stream, "# The scenario with the %s.\ninclude: \"", self->how);
-    write_way(there, file, stream);
-    fputs("\"\n", stream);
-    return write_blocks(self, stream);
+    bool good;
+    if (can_include(found->model, file) && realpath(self->folder, there)) {
+        fprintf(stream, "# The scenario with the %s.\ninclude: \"", found->how);
+        write_way(there, file, stream);
+        fputs("\"\n", stream);
+        good = write_blocks(found, stream);
+    } else {
+        good = write_whole(found, stream);
+    }
+    return good ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the scenario found");
+}
+
+ld_status found_file_write(csv_writer *write, void *self, const char *folder, const char *name,
+                           ld_error *error)
+{
+    char path[PATH_MAX];
+    if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
+        return ld_fail(error, LD_ERR_INPUT, "the folder's name is too long");
+    return table_file_print(write, self, path, error);
+}
+
+ld_status found_scenario_write(const found_scenario *self, const char *folder, const char *name,
+                               ld_error *error)
+{
+    found_file file = {self, folder};
+    return found_file_write(write_scenario, &file, folder, name, error);
 }

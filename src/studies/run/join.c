@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/lock_file.h"
+#include "results/folder.h"
 #include "studies/run/join_state.h"
 #include "studies/run/worker.h"
 
@@ -501,7 +502,7 @@ static ld_status prepare(study_join *self, ld_error *error)
     if (!status)
         status = join_key(self->study, &self->whole, error);
     if (!status)
-        status = store_make_folder(self->folder, error);
+        status = folder_ensure(self->folder, error);
     if (!status)
         status = claims_open(&self->claims, self->folder, expiry, error);
     return status ? status : try_to_keep(self, error);

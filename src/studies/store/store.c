@@ -323,14 +323,6 @@ static ld_status open_locked(study_store *self, const store_place *place, ld_err
     return status ? status : open_database(self, place->journal, error);
 }
 
-ld_status store_make_folder(const char *folder, ld_error *error)
-{
-    char made[4096];
-    size_t there = 0;
-    snprintf(made, sizeof made, "%s", folder);
-    return folder_make(made, &there, error);
-}
-
 ld_status store_try_lock(const char *folder, int *lock, ld_error *error)
 {
     study_store store;
@@ -347,7 +339,7 @@ ld_status store_open(study_store *self, const store_place *place, const ld_study
                      ld_error *error)
 {
     *self = (study_store){.study = study, .lock = -1};
-    ld_status status = store_make_folder(place->folder, error);
+    ld_status status = folder_ensure(place->folder, error);
     if (!status)
         status = open_locked(self, place, error);
     if (!status)

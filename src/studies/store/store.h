@@ -16,7 +16,6 @@ typedef struct store_place {
     int lock; // a descriptor that has the database's lock, and is the store's from now on; 0: none
 } store_place;
 
-ld_status store_make_folder(const char *folder, ld_error *error);
 // Locks study.db of the folder, which is there, without waiting; *lock: the descriptor, -1 where
 // another process has it.
 ld_status store_try_lock(const char *folder, int *lock, ld_error *error);
