@@ -5,7 +5,6 @@
 #include <assert.h>
 #include <inttypes.h>
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -50,9 +49,7 @@ typedef struct study_join {
         pause; // [s] when it began, when a range is searched again, the pause then
     double renewed, read, written, heard, told; // [s] when
     int64_t told_done;
-    ld_status status; // why it stopped
-    ld_error *error;
-    atomic_bool stopped;
+    source_end end;
     pthread_mutex_t at_work; // over state, kind, open, status
 } study_join;
 
@@ -66,24 +63,14 @@ static double now(void)
 static bool join_continues(void *argument)
 {
     const study_join *self = argument;
-    const ld_study_options *options = self->options;
-    return !self->stopped && (!options->go_on || options->go_on(options->self));
-}
-
-static void stop(study_join *self, ld_status status, const ld_error *error)
-{
-    if (!self->status) {
-        self->status = status;
-        *self->error = *error;
-    }
-    self->stopped = true;
+    return source_continues(&self->end, self->options);
 }
 
 static void join_stop(void *argument, ld_status status, const ld_error *error)
 {
     study_join *self = argument;
     pthread_mutex_lock(&self->at_work);
-    stop(self, status, error);
+    source_end_with(&self->end, status, error);
     pthread_mutex_unlock(&self->at_work);
 }
 
@@ -188,7 +175,7 @@ static int64_t next_number(study_join *self)
         return SAMPLE_WAIT;
     ld_status status = open_next(self, &error);
     if (status)
-        stop(self, status, &error);
+        source_end_with(&self->end, status, &error);
     number = next_here(self);
     if (!number)
         self->search = time + self->pause;
@@ -244,16 +231,11 @@ static void join_keep(void *argument, const study_record *record)
 {
     study_join *self = argument;
     ld_error error;
-    ld_status status = LD_OK;
     pthread_mutex_lock(&self->at_work);
-    if (record->outcome == LD_ERR_INTERRUPTED)
-        self->stopped = true;
-    else if (record->outcome == LD_ERR_MEMORY)
-        status = ld_fail(&error, LD_ERR_MEMORY, "%s", record->reason);
-    else
-        status = keep_record(self, record, &error);
+    ld_status status =
+        source_end_by(&self->end, record) ? LD_OK : keep_record(self, record, &error);
     if (status)
-        stop(self, status, &error);
+        source_end_with(&self->end, status, &error);
     pthread_mutex_unlock(&self->at_work);
 }
 
@@ -485,7 +467,7 @@ static void give_up_ranges(study_join *self)
     while (self->open_count > 0) {
         ld_status status = close_range(self, self->open_count - 1, &error);
         if (status)
-            stop(self, status, &error);
+            source_end_with(&self->end, status, &error);
     }
 }
 
@@ -512,28 +494,28 @@ static ld_status end(study_join *self)
 {
     ld_error error;
     give_up_ranges(self);
-    if (self->keeping && self->keeper.open && !self->status && self->claims.me[0]) {
+    if (self->keeping && self->keeper.open && !self->end.status && self->claims.me[0]) {
         ld_status status = keep_all_parts(self, &error);
         if (status && join_continues(self))
-            stop(self, status, &error);
+            source_end_with(&self->end, status, &error);
     }
     bool complete = self->state.complete;
     tell(self, now() + READ);
     if (self->keeping) {
         ld_status status = keeper_close(&self->keeper, &error);
         if (status && (complete || join_continues(self)))
-            stop(self, status, &error);
+            source_end_with(&self->end, status, &error);
     }
-    if (self->keeping && self->status) // what it says is not so, or not long
+    if (self->keeping && self->end.status) // what it says is not so, or not long
         claims_remove(&self->claims, "state");
-    claims_close(&self->claims, self->keeping && complete && !self->status);
+    claims_close(&self->claims, self->keeping && complete && !self->end.status);
     ranges_free(&self->ranges);
     join_state_free(&self->state);
     free(self->kind);
     free(self->open);
-    if (self->status || complete)
-        return self->status;
-    return ld_fail(self->error, LD_ERR_INTERRUPTED,
+    if (self->end.status || complete)
+        return self->end.status;
+    return ld_fail(self->end.error, LD_ERR_INTERRUPTED,
                    "interrupted after %" PRId64 " of %" PRId64
                    " samples; the same command continues",
                    self->counts->done, self->counts->samples);
@@ -556,19 +538,20 @@ ld_status ld_study_join(const ld_study *study, const char *folder, const ld_stud
                        .folder = folder,
                        .counts = counts,
                        .pause = LEAST_SEARCH,
-                       .error = error,
+                       .end = {.error = error},
                        .at_work = PTHREAD_MUTEX_INITIALIZER};
     self.begun = self.heard = now();
     ld_error reason;
     status = prepare(&self, &reason);
     if (status)
-        stop(&self, status, &reason);
+        source_end_with(&self.end, status, &reason);
     const sample_source source = {&self, study, join_next, join_keep, join_continues, join_stop};
     int threads = options->threads > 1 ? options->threads : 1, started = 0;
     pthread_t *thread = calloc((size_t)threads, sizeof *thread);
     if (!thread)
-        stop(&self, ld_fail(&reason, LD_ERR_MEMORY, "no memory for threads"), &reason);
-    else if (!self.stopped)
+        source_end_with(&self.end, ld_fail(&reason, LD_ERR_MEMORY, "no memory for threads"),
+                        &reason);
+    else if (!self.end.stopped)
         started = worker_start_some(thread, threads, threads, &source);
     serve_until_end(&self);
     while (started > 0)

@@ -27,23 +27,13 @@ sample_source ledger_source(study_ledger *self)
 bool ledger_continues(void *self)
 {
     const study_ledger *ledger = self;
-    const ld_study_options *options = ledger->options;
-    return !ledger->stopped && (!options->go_on || options->go_on(options->self));
-}
-
-static void stop(study_ledger *self, ld_status status, const ld_error *error)
-{
-    if (!self->status) {
-        self->status = status;
-        *self->error = *error;
-    }
-    self->stopped = true;
+    return source_continues(&ledger->end, ledger->options);
 }
 
 void ledger_stop(study_ledger *self, ld_status status, const ld_error *error)
 {
     pthread_mutex_lock(&self->at_work);
-    stop(self, status, error);
+    source_end_with(&self->end, status, error);
     pthread_mutex_unlock(&self->at_work);
 }
 
@@ -60,9 +50,9 @@ static int64_t next_up_to_check(study_ledger *self)
         self->next += self->step;
         ld_status status = store_has(&self->store, number, &there, &error);
         if (status)
-            stop(self, status, &error);
+            source_end_with(&self->end, status, &error);
     }
-    return there || self->stopped ? 0 : number;
+    return there || self->end.stopped ? 0 : number;
 }
 
 // All samples up to where the rule is checked are kept.
@@ -77,7 +67,7 @@ static void check_rule(study_ledger *self)
     else
         counts->look = self->rule.look;
     if (status)
-        stop(self, status, &error);
+        source_end_with(&self->end, status, &error);
 }
 
 static int64_t next_number(study_ledger *self)
@@ -118,15 +108,11 @@ static void keep_record(study_ledger *self, const study_record *record)
 {
     ld_error error;
     self->running -= record->number > 0;
-    if (record->outcome == LD_ERR_INTERRUPTED) {
-        self->stopped = true;
+    if (source_end_by(&self->end, record))
         return;
-    }
-    ld_status status = record->outcome == LD_ERR_MEMORY
-                           ? ld_fail(&error, LD_ERR_MEMORY, "%s", record->reason)
-                           : put_record(self, record, &error);
+    ld_status status = put_record(self, record, &error);
     if (status) {
-        stop(self, status, &error);
+        source_end_with(&self->end, status, &error);
         return;
     }
     self->counts->done++;
@@ -164,7 +150,7 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
                            .next = place->shards > 0 ? place->shard : 1,
                            .step = shards,
                            .rule = until_begin(study),
-                           .error = error,
+                           .end = {.error = error},
                            .at_work = PTHREAD_MUTEX_INITIALIZER};
     *counts = (ld_study_counts){0};
     ld_status status = store_open(&self->store, place, study, error);
@@ -177,10 +163,8 @@ void ledger_open(study_ledger *self, const ld_study *study, const store_place *p
     counts->samples = last < self->next ? 0 : (last - self->next) / shards + 1;
     if (!self->rule.decided)
         counts->look = self->rule.look;
-    if (status) {
-        self->status = status;
-        self->stopped = true;
-    }
+    if (status)
+        source_end_with(&self->end, status, error);
 }
 
 ld_status ledger_close(study_ledger *self)
@@ -190,15 +174,15 @@ ld_status ledger_close(study_ledger *self)
         ld_error error;
         ld_status status = store_settle(&self->store, true, &error);
         if (status && !interrupted)
-            stop(self, status, &error);
+            source_end_with(&self->end, status, &error);
         status = store_check_place(&self->store, &error);
         if (status) // there is nothing to continue with
-            stop(self, status, &error);
+            source_end_with(&self->end, status, &error);
         store_close(&self->store);
     }
-    if (self->status || !interrupted)
-        return self->status;
-    return ld_fail(self->error, LD_ERR_INTERRUPTED,
+    if (self->end.status || !interrupted)
+        return self->end.status;
+    return ld_fail(self->end.error, LD_ERR_INTERRUPTED,
                    "interrupted after %" PRId64 " of %" PRId64
                    " samples; the same command continues",
                    self->counts->done, self->counts->samples);

@@ -5,7 +5,6 @@
 #define LD_STUDIES_LEDGER_H
 
 #include <pthread.h>
-#include <stdatomic.h>
 
 #include "studies/run/sample_source.h"
 #include "studies/run/until.h"
@@ -20,10 +19,8 @@ typedef struct study_ledger {
     bool open;
     int64_t next, step; // number to be checked, from one to the next
     until_rule rule;
-    int running;      // samples handed out that have not come back
-    ld_status status; // why it stopped
-    ld_error *error;
-    atomic_bool stopped;
+    int running; // samples handed out that have not come back
+    source_end end;
     pthread_mutex_t at_work; // held by whom the ledger serves
 } study_ledger;
 

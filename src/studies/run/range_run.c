@@ -2,7 +2,6 @@
 #include <assert.h>
 #include <inttypes.h>
 #include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,17 +15,14 @@ typedef struct range_run {
     const ld_study_options *options;
     int64_t next, last;
     study_part part;
-    ld_status status; // why it stopped
-    ld_error *error;
-    atomic_bool stopped;
+    source_end end;
     pthread_mutex_t at_work;
 } range_run;
 
 static bool run_continues(void *argument)
 {
     const range_run *self = argument;
-    const ld_study_options *options = self->options;
-    return !self->stopped && (!options->go_on || options->go_on(options->self));
+    return source_continues(&self->end, self->options);
 }
 
 static int64_t run_next(void *argument)
@@ -39,20 +35,11 @@ static int64_t run_next(void *argument)
     return number;
 }
 
-static void stop(range_run *self, ld_status status, const ld_error *error)
-{
-    if (!self->status) {
-        self->status = status;
-        *self->error = *error;
-    }
-    self->stopped = true;
-}
-
 static void run_stop(void *argument, ld_status status, const ld_error *error)
 {
     range_run *self = argument;
     pthread_mutex_lock(&self->at_work);
-    stop(self, status, error);
+    source_end_with(&self->end, status, error);
     pthread_mutex_unlock(&self->at_work);
 }
 
@@ -60,16 +47,11 @@ static void run_keep(void *argument, const study_record *record)
 {
     range_run *self = argument;
     ld_error error;
-    ld_status status = LD_OK;
     pthread_mutex_lock(&self->at_work);
-    if (record->outcome == LD_ERR_INTERRUPTED)
-        self->stopped = true;
-    else if (record->outcome == LD_ERR_MEMORY)
-        status = ld_fail(&error, LD_ERR_MEMORY, "%s", record->reason);
-    else
-        status = part_add(&self->part, record, &error);
+    ld_status status =
+        source_end_by(&self->end, record) ? LD_OK : part_add(&self->part, record, &error);
     if (status)
-        stop(self, status, &error);
+        source_end_with(&self->end, status, &error);
     pthread_mutex_unlock(&self->at_work);
 }
 
@@ -97,7 +79,7 @@ ld_status ld_study_run_range(const ld_study *study, const ld_study_range *range,
     range_run self = {.options = options ? options : &none,
                       .next = range->first,
                       .last = range->last,
-                      .error = error,
+                      .end = {.error = error},
                       .at_work = PTHREAD_MUTEX_INITIALIZER};
     ld_status status = check_range(study, range->first, range->last, error);
     if (!status)
@@ -106,13 +88,13 @@ ld_status ld_study_run_range(const ld_study *study, const ld_study_range *range,
         return status;
     const sample_source source = {&self, study, run_next, run_keep, run_continues, run_stop};
     worker_run_side_by_side(&source, self.options->threads);
-    if (!self.status && self.part.count <= range->last - range->first)
-        self.status = ld_fail(error, LD_ERR_INTERRUPTED, "interrupted");
-    if (!self.status)
-        self.status = part_seal(&self.part, key, error);
-    if (self.status) {
+    if (!self.end.status && self.part.count <= range->last - range->first)
+        self.end.status = ld_fail(error, LD_ERR_INTERRUPTED, "interrupted");
+    if (!self.end.status)
+        self.end.status = part_seal(&self.part, key, error);
+    if (self.end.status) {
         part_free(&self.part);
-        return self.status;
+        return self.end.status;
     }
     *part = self.part.bytes;
     *size = self.part.size;
