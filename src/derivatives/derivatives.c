@@ -79,6 +79,10 @@ static ld_status check_model(const ld_model *model, size_t keys, ld_error *error
         return ld_fail(error, LD_ERR_INPUT,
                        "derivatives are of single launches; the scenario fires %d rockets",
                        model_firing_count(model));
+    if (model_run(model)->coupling_step > 0)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "run.coupling: derivatives are of launches integrated as a whole: expected "
+                       "no run.coupling");
     return LD_OK;
 }
 

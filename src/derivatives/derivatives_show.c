@@ -117,7 +117,7 @@ ld_status ld_derivatives_print(const ld_derivatives *self, const char *results, 
     }
     if (!status && count_rough(self, &list) > 0)
         fputs("* left and right differ by more than 1 %, or in their events: the launch is not "
-              "smooth there (a strike begins or ends)\n",
+              "smooth there (a strike begins or ends), or the step too wide\n",
               stream);
     return status;
 }

@@ -240,18 +240,25 @@ static void refusals(void **state)
     static const struct {
         const char *file;
         ld_derivative_key key;
-        const char *text;
+        const char *text, *set;
     } cases[] = {
-        {"fixed.yaml", {"rocket.mas", NULL}, "mass"},
-        {"fixed.yaml", {"tubes.modes.bending", NULL}, "a whole number has no derivatives"},
-        {"fixed.yaml", {"base.azimuth", NULL}, "base.azimuth is 0: expected the step"},
-        {"fixed.yaml", {"rocket.mass", "1 m"}, "rocket.mass: step: "},
-        {"fixed.yaml", {"rocket.mass", "-1 g"}, "expected a step > 0"},
-        {"fixed.yaml", {"rocket.contact.restitution", "0.6"}, "leaves its range, from 0 to 1"},
-        {"salvo.yaml", {"rocket.mass", NULL}, "derivatives are of single launches"},
+        {"fixed.yaml", {"rocket.mas", NULL}, "mass", NULL},
+        {"fixed.yaml", {"tubes.modes.bending", NULL}, "a whole number has no derivatives", NULL},
+        {"fixed.yaml", {"base.azimuth", NULL}, "base.azimuth is 0: expected the step", NULL},
+        {"fixed.yaml", {"rocket.mass", "1 m"}, "rocket.mass: step: ", NULL},
+        {"fixed.yaml", {"rocket.mass", "-1 g"}, "expected a step > 0", NULL},
+        {"fixed.yaml",
+         {"rocket.contact.restitution", "0.6"},
+         "leaves its range, from 0 to 1",
+         NULL},
+        {"salvo.yaml", {"rocket.mass", NULL}, "derivatives are of single launches", NULL},
+        {"marching/15-kmh.yaml",
+         {"rocket.mass", NULL},
+         "run.coupling: ",
+         "run.coupling={step: 1 ms}"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        ld_model *model = read_example(cases[i].file, NULL, 0);
+        ld_model *model = read_example(cases[i].file, &cases[i].set, cases[i].set != NULL);
         ld_derivatives *of;
         ld_error error;
         assert_int_equal(ld_derivatives_find(model, &cases[i].key, 1, NULL, &of, &error),
