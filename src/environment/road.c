@@ -22,10 +22,21 @@ struct road {
     double from, spacing, rate; // rate: 1/spacing
     size_t cells;
     double *cell[2];        // [cells][COEFFICIENTS] of each track over (x - from)/spacing - index
-    double *memory;         // of the numbers above
+    double *memory;         // of k and c
     bool wide_instructions; // AVX2 is there
     spline profile[2];
 };
+
+static bool has_equal_tracks(const road *self)
+{
+    return self->model->tracks == LD_TRACKS_SAME;
+}
+
+// Of k and c.
+static size_t numbers_of(int harmonics)
+{
+    return 5 * (size_t)harmonics;
+}
 
 double road_class_density(int iso_class, double n)
 {
@@ -434,10 +445,24 @@ double road_density(const ld_road *model, double n, double *shared)
     return random && within ? road_class_density(model->iso_class, n) : 0;
 }
 
-static ld_status build_random(road *self, double x0, double x1, ld_error *error)
+// Takes over the table of a road that has the same harmonics, and as many places: to the bit its
+// own.
+static bool take_table(road *self, road *former)
+{
+    if (!former || former->harmonics != self->harmonics || former->cells != self->cells ||
+        former->from != self->from || former->spacing != self->spacing ||
+        (former->cell[ROAD_RIGHT] == former->cell[ROAD_LEFT]) != has_equal_tracks(self) ||
+        memcmp(former->memory, self->memory, numbers_of(self->harmonics) * sizeof(double)) != 0)
+        return false;
+    memcpy(self->cell, former->cell, sizeof self->cell);
+    memset(former->cell, 0, sizeof former->cell);
+    return true;
+}
+
+static ld_status build_random(road *self, double x0, double x1, road *former, ld_error *error)
 {
     size_t n = (size_t)self->model->harmonics, room = n + (n & 1);
-    self->memory = calloc(5 * room, sizeof(double));
+    self->memory = calloc(numbers_of((int)room), sizeof(double));
     if (!self->memory)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a road of %zu harmonics", n);
     self->harmonics = (int)room;
@@ -452,7 +477,9 @@ static ld_status build_random(road *self, double x0, double x1, ld_error *error)
     self->rate = 1 / self->spacing;
     double cells = fmax(ceil((x1 - x0) / self->spacing), 0) + 1;
     self->cells = (size_t)fmin(cells, MOST_CELLS);
-    int tables = self->model->tracks == LD_TRACKS_SAME ? 1 : 2;
+    if (take_table(self, former))
+        return LD_OK;
+    int tables = has_equal_tracks(self) ? 1 : 2;
     for (int track = 0; track < tables; track++) {
         self->cell[track] = malloc(self->cells * COEFFICIENTS * sizeof(double));
         if (!self->cell[track] || !tabulate(self, (road_track)track))
@@ -486,25 +513,39 @@ static ld_status build_profile(road *self, ld_error *error)
 ld_status road_build(const ld_road *model, double x0, double x1, road **out, ld_error *error)
 {
     *out = NULL;
-    road *self = calloc(1, sizeof *self);
-    if (!self)
+    return road_renew(out, model, x0, x1, error);
+}
+
+static ld_status build(road *self, double x0, double x1, road *former, ld_error *error)
+{
+    ld_status status = LD_OK;
+    if (self->model->iso_class != LD_ROAD_SMOOTH)
+        status = build_random(self, x0, x1, former, error);
+    if (!status && self->model->profile.rows)
+        status = build_profile(self, error);
+    return status;
+}
+
+ld_status road_renew(road **renewed, const ld_road *model, double x0, double x1, ld_error *error)
+{
+    road *former = *renewed, *self = calloc(1, sizeof *self);
+    *renewed = self;
+    if (!self) {
+        road_free(former);
         return ld_fail(error, LD_ERR_MEMORY, "no memory for a road");
+    }
     static const ld_road flat = {.iso_class = LD_ROAD_SMOOTH};
-    model = model->form == LD_ROAD_FLAT ? &flat : model;
-    self->model = model;
+    self->model = model->form == LD_ROAD_FLAT ? &flat : model;
 #if defined(__x86_64__)
     // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
     self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
 #endif
-    ld_status status = LD_OK;
-    if (model->iso_class != LD_ROAD_SMOOTH)
-        status = build_random(self, x0, x1, error);
-    if (!status && model->profile.rows)
-        status = build_profile(self, error);
-    if (status)
+    ld_status status = build(self, x0, x1, former, error);
+    road_free(former);
+    if (status) {
         road_free(self);
-    else
-        *out = self;
+        *renewed = NULL;
+    }
     return status;
 }
 

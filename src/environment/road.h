@@ -15,6 +15,9 @@ typedef struct road road;
 // Builds the road from the model (kept by reference); between x0 and x1 [m] its random part is
 // tabulated (to rounding), outside it is summed harmonic by harmonic.
 ld_status road_build(const ld_road *model, double x0, double x1, road **out, ld_error *error);
+// The same in the place of a road that is used no more, or NULL: takes over its table where that is
+// the same to the bit. *self becomes NULL where it fails.
+ld_status road_renew(road **self, const ld_road *model, double x0, double x1, ld_error *error);
 void road_free(road *self);
 
 // Height h(x) [m] and slope h'(x) of a track at x [m] of I; slope may be NULL.

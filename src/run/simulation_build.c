@@ -29,7 +29,7 @@ static ld_status create_flights(ld_simulation *self, ld_error *error)
     return status;
 }
 
-static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_error *error)
+static ld_status create_launch(ld_simulation *self, launcher_kept *kept, ld_error *error)
 {
     const ld_model *model = self->model;
     ld_status status = launcher_build(&self->launcher, model, kept, error);
@@ -52,11 +52,11 @@ static ld_status create_launch(ld_simulation *self, launching_tube *kept, ld_err
 
 static ld_status renew_launch(ld_simulation *self, const ld_model *model, ld_error *error)
 {
-    launching_tube kept = launching_take_tube(&self->launcher.launching);
+    launcher_kept kept = launcher_hand_over(&self->launcher);
     simulation_clear(self);
     self->model = model;
     ld_status status = create_launch(self, &kept, error);
-    launching_tube_free(&kept);
+    launcher_kept_free(&kept);
     return status;
 }
 

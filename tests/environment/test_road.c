@@ -368,14 +368,58 @@ static void test_seeds(void **state)
     road_free(d);
 }
 
+// A road in the place of another has the bits of one that is built alone, whichever of its numbers
+// differs from the one before's.
+static void test_renewed(void **state)
+{
+    (void)state;
+    ld_road table = coherent_road(3), shorter = class_road(2, LD_TRACKS_SAME, 3), rougher = shorter;
+    const ld_road base = shorter, seed = class_road(2, LD_TRACKS_SAME, 4),
+                  tracks = class_road(2, LD_TRACKS_INDEPENDENT, 3), smooth = {.iso_class = -1},
+                  flat = {.form = LD_ROAD_FLAT};
+    shorter.wavelengths[0] = 0.5;
+    rougher.iso_class = 3;
+    ld_road fewer = base, bumpy = base;
+    fewer.harmonics = 399;
+    bumpy.bump_count = 1;
+    bumpy.bump[0] = (ld_bump){.at = -1, .length = 0.5, .height = 0.1};
+    const ld_road *models[] = {&base, &base,  &seed, &base,    &tracks, &tracks, &table,
+                               &base, &table, &base, &shorter, &fewer,  &base,   &rougher,
+                               &base, &bumpy, &base, &smooth,  &base,   &flat,   &base};
+    road *renewed = NULL;
+    ld_error error;
+    for (size_t k = 0; k < sizeof models / sizeof *models; k++)
+        for (int moved = 0; moved < 3; moved++) {
+            // the stretch goes elsewhere, then is longer
+            double x0 = -3 - (moved == 1), x1 = 2 + (moved == 2);
+            road *own = build(models[k], x0, x1);
+            assert_int_equal(road_renew(&renewed, models[k], x0, x1, &error), LD_OK);
+            for (int track = 0; track < ROAD_TRACKS; track++)
+                for (double x = -4.5; x < 3.5; x += 0.173) {
+                    double slope, again;
+                    double height = road_height(own, (road_track)track, x, &slope);
+                    assert_true(road_height(renewed, (road_track)track, x, &again) == height);
+                    assert_true(again == slope);
+                }
+            road_free(own);
+        }
+    road_free(renewed);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_definition), cmocka_unit_test(test_far_away),
-        cmocka_unit_test(test_continuity), cmocka_unit_test(test_sines),
-        cmocka_unit_test(test_bumps),      cmocka_unit_test(test_table),
-        cmocka_unit_test(test_sum),        cmocka_unit_test(test_flat),
-        cmocka_unit_test(test_seeds),      cmocka_unit_test(test_between_the_tracks),
+        cmocka_unit_test(test_renewed),
+        cmocka_unit_test(test_definition),
+        cmocka_unit_test(test_far_away),
+        cmocka_unit_test(test_continuity),
+        cmocka_unit_test(test_sines),
+        cmocka_unit_test(test_bumps),
+        cmocka_unit_test(test_table),
+        cmocka_unit_test(test_sum),
+        cmocka_unit_test(test_flat),
+        cmocka_unit_test(test_seeds),
+        cmocka_unit_test(test_between_the_tracks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -354,7 +354,7 @@ static void the_tube_moves_as_its_rates_say(void **state)
                                          -1,  1,   -4, 2, 0.1, 0.25,   -0.1,   q.w,   q.x,
                                          q.y, q.z, 2,  1, 0,   rate.x, rate.y, rate.z};
     memcpy(y + 2, frames, sizeof frames);
-    assert_int_equal(base_build(&base, &self.model, &error), LD_OK);
+    assert_int_equal(base_build(&base, &self.model, NULL, &error), LD_OK);
     for (double t = 0.01; t < 0.095; t += 0.02) {
         for (int i = 0; i < 3; i++)
             base.kind->find_frame(&base, t + (i - 1) * h, y, &at[i], &found);

@@ -76,6 +76,26 @@ static void test_same_bits(void **state)
     model_clear(&flight);
 }
 
+// On the march: the road's table stays where nothing of the road or of the way over it differs.
+static void test_marching(void **state)
+{
+    (void)state;
+    ld_simulation *simulation = NULL;
+    ld_model model;
+    read_example("reference.yaml", &model);
+    model.run.lead_in = 0.02;
+    model.run.end = LD_END_TIP;
+    check_same(&simulation, &model);
+    model.rocket.mass_error = 0.3;
+    check_same(&simulation, &model);
+    model.base.vehicle.road.seed = 2;
+    check_same(&simulation, &model);
+    model.base.vehicle.speed *= 1.5;
+    check_same(&simulation, &model);
+    ld_simulation_free(simulation);
+    model_clear(&model);
+}
+
 // What fails leaves a simulation that the next sample can use.
 static void test_after_failure(void **state)
 {
@@ -105,6 +125,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_marching),
         cmocka_unit_test(test_after_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -28,7 +28,7 @@ static void set_up(fixture *f, double speed)
 static void build(fixture *f)
 {
     ld_error error;
-    if (marching_build(&f->system, f->vehicle, GRAVITY, -10, 10, &error))
+    if (marching_build(&f->system, f->vehicle, GRAVITY, (double[]){-10, 10}, NULL, &error))
         fail_msg("%s", error.text);
 }
 

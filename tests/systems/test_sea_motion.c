@@ -108,8 +108,8 @@ static void test_one_wave_is_the_base_of_sines(void **state)
     set_sine(&sines.base.pitch, 1.5 * row[9], f, row[10]);
     set_sine(&sines.base.yaw, 1.5 * row[11], f, row[12]);
     base_system a, b;
-    assert_int_equal(base_build(&a, &sea, NULL), LD_OK);
-    assert_int_equal(base_build(&b, &sines, NULL), LD_OK);
+    assert_int_equal(base_build(&a, &sea, NULL, NULL), LD_OK);
+    assert_int_equal(base_build(&b, &sines, NULL, NULL), LD_OK);
     double error = 0;
     for (double t = -4; t < 6; t += 0.173) {
         base_frame p = frame_of(&a, t), q = frame_of(&b, t);
@@ -328,8 +328,8 @@ static void test_arm(void **state)
     bare.base.azimuth = bare.base.elevation = 0;
     model.base.at[0] = 30, model.base.at[1] = 6, model.base.at[2] = -4;
     base_system base, ship_alone;
-    assert_int_equal(base_build(&base, &model, NULL), LD_OK);
-    assert_int_equal(base_build(&ship_alone, &bare, NULL), LD_OK);
+    assert_int_equal(base_build(&base, &model, NULL, NULL), LD_OK);
+    assert_int_equal(base_build(&ship_alone, &bare, NULL, NULL), LD_OK);
     double place = 0, rates = 0, h = 1e-3;
     for (double t = -1; t < 2; t += 0.11) {
         base_frame at = frame_of(&base, t), origin = frame_of(&ship_alone, t),

@@ -30,7 +30,7 @@ static void know_changed(known_motion *self, const char *example, const char *co
     if (scenario_read(path, sets, count, &self->model, &messages))
         fail_msg("%s", path);
     self->model.run.tolerance = tolerance;
-    if (base_build(&self->base, &self->model, &error))
+    if (base_build(&self->base, &self->model, NULL, &error))
         fail_msg("%s", error.text);
 }
 

@@ -260,7 +260,7 @@ static void compare_mechanism(uint64_t *seed, int kind, const mechanism_options 
     mechanism_case c;
     double start[BASE_MOST_STATES];
     draw_mechanism(seed, kind, options, &model);
-    if (base_build(&base, &model, &error))
+    if (base_build(&base, &model, NULL, &error))
         fail_msg("mechanism %d: %s", kind, error.text);
     dense_mechanism_create(&dense, &model, model.firing[0].tube, NULL, 0);
     dense_mechanism_start(&dense, start);

@@ -27,7 +27,8 @@ static void build(fast_vehicle *fast, const ld_model *model, int launching, cons
                   int count)
 {
     ld_error error;
-    if (marching_build(&fast->marching, &model->base.vehicle, model->gravity, -10, 10, &error) ||
+    if (marching_build(&fast->marching, &model->base.vehicle, model->gravity, (double[]){-10, 10},
+                       NULL, &error) ||
         vehicle_bodies_build(&fast->orientating, model, launching, fired, count, &error))
         fail_msg("%s", error.text);
 }

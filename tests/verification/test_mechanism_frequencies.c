@@ -64,7 +64,7 @@ static int squares_of(const ld_model *model, double *square, double *coupled)
     ld_error error;
     base_system base;
     const double h = 1e-6;
-    if (base_build(&base, model, &error))
+    if (base_build(&base, model, NULL, &error))
         fail_msg("%s", error.text);
     const mechanism_base *own = base.own;
     int n = base.displacement_count;

@@ -109,7 +109,7 @@ static bool begin(uint64_t *seed, int kind, const mechanism_options *options, dr
     ld_error error;
     double start[BASE_MOST_STATES];
     draw_mechanism(seed, kind, options, &d->model);
-    if (base_build(&d->base, &d->model, &error))
+    if (base_build(&d->base, &d->model, NULL, &error))
         fail_msg("mechanism %d: %s", kind, error.text);
     dense_mechanism_create(&d->dense, &d->model, d->model.firing[0].tube, NULL, 0);
     dense_mechanism_start(&d->dense, start);

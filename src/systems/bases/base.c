@@ -21,15 +21,21 @@ const quantity_table *base_quantities(ld_base_kind kind)
     return base ? base->quantities : NULL;
 }
 
-ld_status base_build(base_system *self, const ld_model *model, ld_error *error)
+ld_status base_build(base_system *self, const ld_model *model, road **kept, ld_error *error)
 {
-    *self = (base_system){.model = model, .kind = base_of_kind(model->base.kind)};
+    *self = (base_system){.model = model, .kind = base_of_kind(model->base.kind), .kept = kept};
     if (!self->kind)
         return ld_fail(error, LD_ERR_INPUT, "base.kind: %d carries no tube", (int)model->base.kind);
     ld_status status = self->kind->build(self, error);
+    self->kept = NULL;
     if (status)
         base_free(self);
     return status;
+}
+
+road *base_take_road(base_system *self)
+{
+    return self->own && self->kind->take_road ? self->kind->take_road(self) : NULL;
 }
 
 void base_free(base_system *self)

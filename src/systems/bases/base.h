@@ -53,8 +53,9 @@ typedef struct base_disturbance {
 typedef struct base_system {
     const base_interface *kind;
     const ld_model *model;
-    void *own; // what the kind made of the model; constant but for its workspace
-    int tube;  // that launches now, in the order of firing
+    void *own;   // what the kind made of the model; constant but for its workspace
+    int tube;    // that launches now, in the order of firing
+    road **kept; // while it is built: a road that it may take over; NULL: none
     const base_disturbance *disturbed; // linearised; NULL: it goes as the scenario says
     int state_count, work_count, event_count;
     int speed_at, speed_count; // in the state: generalised speeds of what carries the tube
@@ -220,6 +221,8 @@ struct base_interface {
     // Fills self->own and the counts.
     ld_status (*build)(base_system *self, ld_error *error);
     void (*free)(base_system *self);
+    // Takes the road out of a base that is used no more, to be freed or kept; NULL: there is none.
+    road *(*take_road)(base_system *self);
     // Puts a workspace of its own in the place of self->own, shares the rest, which outlives it;
     // NULL: there is none, all is shared.
     ld_status (*share)(base_system *self, ld_error *error);
@@ -262,7 +265,10 @@ LD_BASE_KINDS(BASE_INTERFACE)
 // Columns of the bases of that kind; NULL: they have none of their own.
 const quantity_table *base_quantities(ld_base_kind kind);
 
-ld_status base_build(base_system *self, const ld_model *model, ld_error *error);
+// `kept`: a road that it may take over, which is NULL then; NULL: none.
+ld_status base_build(base_system *self, const ld_model *model, road **kept, ld_error *error);
+// The road under a base that is used no more, to be freed or kept; NULL: there is none.
+road *base_take_road(base_system *self);
 void base_free(base_system *self);
 
 // Makes *self the base of one run; `of` must outlive it.

@@ -68,7 +68,7 @@ static ld_status build(base_system *base, ld_error *error)
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the base's bodies");
     self->mechanism_works = MECHANISM_POWERS;
-    ld_status status = mechanism_base_build(self, &plan, error);
+    ld_status status = mechanism_base_build(base, &plan, error);
     if (status)
         return status;
     name_holders(self);
@@ -472,6 +472,7 @@ static const base_frame *stations(const base_system *self, const base_found *fou
 const base_interface base_multibody = {
     .build = build,
     .free = mechanism_base_free,
+    .take_road = mechanism_base_take_road,
     .share = mechanism_base_share,
     .find_frame = mechanism_base_find_frame,
     .stations = stations,

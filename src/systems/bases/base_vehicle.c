@@ -52,7 +52,7 @@ static ld_status build(base_system *base, ld_error *error)
     self->mechanism_works = VEHICLE_BODY_POWERS;
     self->has_jet = model_has_jet(base->model);
     const mechanism_plan plan = vehicle_plan(base->model, made);
-    ld_status status = mechanism_base_build(self, &plan, error);
+    ld_status status = mechanism_base_build(base, &plan, error);
     if (status)
         return status;
     for (int i = 0; i < self->tube_count; i++)
@@ -361,6 +361,7 @@ static void fill_instant(const base_system *base, const base_found *found,
 const base_interface base_vehicle = {
     .build = build,
     .free = mechanism_base_free,
+    .take_road = mechanism_base_take_road,
     .share = mechanism_base_share,
     .find_frame = mechanism_base_find_frame,
     .next_corner = mechanism_base_next_corner,

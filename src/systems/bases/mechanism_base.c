@@ -85,7 +85,7 @@ static ld_status build_mechanisms(mechanism_base *self, const mechanism_plan *pl
     return LD_OK;
 }
 
-static ld_status build_wheels(mechanism_base *self, ld_error *error)
+static ld_status build_wheels(mechanism_base *self, road **kept, ld_error *error)
 {
     static const ld_road flat = {.iso_class = LD_ROAD_SMOOTH};
     const ld_model *model = self->model;
@@ -94,8 +94,8 @@ static ld_status build_wheels(mechanism_base *self, ld_error *error)
     if (!self->has_wheels)
         return LD_OK;
     road_under(model, stretch);
-    ld_status status = marching_build(&self->marching, &model->base.vehicle, model->gravity,
-                                      stretch[0], stretch[1], error);
+    ld_status status =
+        marching_build(&self->marching, &model->base.vehicle, model->gravity, stretch, kept, error);
     if (status)
         return status;
     self->level = self->marching;
@@ -113,15 +113,16 @@ static ld_status build_air(mechanism_base *self, ld_error *error)
     return status ? status : wind_build(&self->wind, &environment->wind, error);
 }
 
-ld_status mechanism_base_build(mechanism_base *self, const mechanism_plan *plan, ld_error *error)
+ld_status mechanism_base_build(base_system *base, const mechanism_plan *plan, ld_error *error)
 {
+    mechanism_base *self = base->own;
     self->model = plan->model;
     ld_status status = prescribed_motion_build(&self->carrier, plan->model, error);
     if (!status)
         status = build_mechanisms(self, plan, error);
     self->still = !status && !self->of_tube[0].carried;
     if (!status)
-        status = build_wheels(self, error);
+        status = build_wheels(self, base->kept, error);
     return status ? status : build_air(self, error);
 }
 
@@ -201,6 +202,14 @@ ld_status mechanism_base_share(base_system *base, ld_error *error)
         self->tube_count++;
     }
     return LD_OK;
+}
+
+road *mechanism_base_take_road(base_system *self)
+{
+    mechanism_base *own = self->own;
+    road *taken = own->marching.road;
+    own->marching.road = NULL;
+    return taken;
 }
 
 void base_set_road(base_system *self, road *under)

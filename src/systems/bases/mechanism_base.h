@@ -59,7 +59,7 @@ void mechanism_base_find_air(const mechanism_base *self, const mechanism_motion 
 // ---- a kind's build()
 
 // Carrier, mechanisms, wheels and air.
-ld_status mechanism_base_build(mechanism_base *self, const mechanism_plan *plan, ld_error *error);
+ld_status mechanism_base_build(base_system *base, const mechanism_plan *plan, ld_error *error);
 // The counts of the base, of what is built and of its freedoms.
 void mechanism_base_count(base_system *base);
 // Puts the wheels at their mounts.
@@ -79,6 +79,7 @@ void mechanism_base_fill_rolling(const base_system *base, const base_output *out
 // ---- functions of a base's interface and dynamics
 
 void mechanism_base_free(base_system *base);
+road *mechanism_base_take_road(base_system *self);
 ld_status mechanism_base_share(base_system *base, ld_error *error);
 void mechanism_base_find_frame(const base_system *self, double t, const double *state,
                                base_frame *tube, base_found *found);

@@ -8,13 +8,25 @@
 #include "systems/launching/launching_figures.h"
 #include "systems/launching/launching_overall.h"
 
-ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
+launcher_kept launcher_hand_over(launcher_system *self)
+{
+    return (launcher_kept){launching_take_tube(&self->launching), base_take_road(&self->base)};
+}
+
+void launcher_kept_free(launcher_kept *self)
+{
+    launching_tube_free(&self->tube);
+    road_free(self->road);
+    self->road = NULL;
+}
+
+ld_status launcher_build(launcher_system *self, const ld_model *model, launcher_kept *kept,
                          ld_error *error)
 {
     *self = (launcher_system){.model = model};
-    ld_status status = launching_build(&self->launching, model, kept, error);
+    ld_status status = launching_build(&self->launching, model, kept ? &kept->tube : NULL, error);
     if (!status)
-        status = base_build(&self->base, model, error);
+        status = base_build(&self->base, model, kept ? &kept->road : NULL, error);
     if (status) {
         launcher_free(self);
         return status;

@@ -40,8 +40,18 @@ typedef struct launcher_output {
 // Which of the base_inputs act on tube and rocket.
 extern const quantity_table launcher_inputs;
 
-// Builds the launcher, for the first rocket of the model's firing. `kept` as for launching_build.
-ld_status launcher_build(launcher_system *self, const ld_model *model, launching_tube *kept,
+// What may be the same in the next launcher, taken from one that is used no more.
+typedef struct launcher_kept {
+    launching_tube tube;
+    road *road; // NULL: none
+} launcher_kept;
+
+launcher_kept launcher_hand_over(launcher_system *self);
+void launcher_kept_free(launcher_kept *self);
+
+// Builds the launcher, for the first rocket of the model's firing; with what was kept (or NULL)
+// where that is the same to the bit, which it then owns.
+ld_status launcher_build(launcher_system *self, const ld_model *model, launcher_kept *kept,
                          ld_error *error);
 void launcher_free(launcher_system *self);
 

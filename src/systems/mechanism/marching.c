@@ -9,8 +9,8 @@ typedef struct carrier {
     const road_disturbance *disturbed;
 } carrier;
 
-ld_status marching_build(marching_system *self, const ld_vehicle *model, double gravity, double x0,
-                         double x1, ld_error *error)
+ld_status marching_build(marching_system *self, const ld_vehicle *model, double gravity,
+                         const double stretch[2], road **kept, ld_error *error)
 {
     *self = (marching_system){
         .model = model,
@@ -23,7 +23,11 @@ ld_status marching_build(marching_system *self, const ld_vehicle *model, double 
         self->right[j] = road_right_share(&model->road, model->wheel[j].mount[2]);
         self->driven_count += model->wheel[j].driven;
     }
-    return road_build(&model->road, x0, x1, &self->road, error);
+    if (kept) {
+        self->road = *kept;
+        *kept = NULL;
+    }
+    return road_renew(&self->road, &model->road, stretch[0], stretch[1], error);
 }
 
 void marching_free(marching_system *self)

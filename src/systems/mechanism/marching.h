@@ -55,9 +55,10 @@ typedef struct marching_output {
     wheel_report wheel[LD_MAX_WHEELS];
 } marching_output;
 
-// The road's table covers x0 to x1 [m].
-ld_status marching_build(marching_system *self, const ld_vehicle *model, double gravity, double x0,
-                         double x1, ld_error *error);
+// The road's table covers the stretch from x0 to x1 [m]; `kept`: a road that it may take over,
+// which is NULL then, or NULL.
+ld_status marching_build(marching_system *self, const ld_vehicle *model, double gravity,
+                         const double stretch[2], road **kept, ld_error *error);
 void marching_free(marching_system *self);
 
 // What is added to the road's height under each wheel [m], and the rate [m/s] at which it meets
