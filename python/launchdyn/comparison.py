@@ -114,7 +114,8 @@ class Comparison:
         return printed(lambda to: library.ld_comparison_print(self._handle.pointer, to))
 
     def __repr__(self) -> str:
-        verdicts = [one.of.verdict for one in [*self.series.values(), *self.results]]
+        verdicts = [one.of.verdict for one in self.series.values()]
+        verdicts += [one.of.verdict for one in self.results]
         return f"<launchdyn.Comparison: {', '.join(verdicts)}>"
 
     def _repr_html_(self) -> str:

@@ -68,8 +68,9 @@ def _fit_of(pointer: int) -> Fit:
 
 
 def _paths(files: Union[PathLike, Sequence[PathLike]]) -> list[str]:
-    alone = isinstance(files, (str, os.PathLike))
-    return [os.fspath(path) for path in ([files] if alone else files)]  # type: ignore[list-item]
+    if isinstance(files, (str, os.PathLike)):
+        return [os.fspath(files)]
+    return [os.fspath(path) for path in files]
 
 
 def fit(scenario: Scenario, files: Union[PathLike, Sequence[PathLike]],

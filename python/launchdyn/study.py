@@ -448,8 +448,8 @@ class StudyData(Held):
             check_name(library.ld_study_data_influences(
                 self._pointer, point, coded(result), ctypes.byref(found), ctypes.byref(count),
                 ctypes.byref(error)), error)
-            return [Influence(text_of(f.factor), *map(_estimate, (f.first, f.total, f.together,
-                                                               f.mu_star, f.mu)),
+            return [Influence(text_of(f.factor), _estimate(f.first), _estimate(f.total),
+                              _estimate(f.together), _estimate(f.mu_star), _estimate(f.mu),
                               f.sigma, f.count, f.groups) for f in found[:count.value]]
 
     def footprint(self, share: float, point: int = 1) -> Footprint:
