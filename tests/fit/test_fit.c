@@ -7,6 +7,7 @@
 #include "launchdyn/launchdyn.h"
 #include "math/curves/distributions.h"
 #include "model/model.h"
+#include "support/coverage.h"
 #include "support/scratch.h"
 
 enum { RESULTS = 4, MOST_ROWS = 64, MOST_KEYS = 4 };
@@ -184,11 +185,11 @@ static void test_exact(void **state)
 // ---- with noise
 
 // How often the truth lies inside the 95 % intervals of `sets` fits, each to 36 launches.
-static void check_coverage(const char *what, bool given, int sets, int least)
+static void check_coverage(const char *what, bool given, int sets)
 {
     enum { LAUNCHES = 36 };
     double value[RESULTS];
-    int inside[3] = {0}, noisy = 0;
+    int inside[3] = {0}, noisy = 0, least = least_of_95(sets);
     ld_model *model = make_model(NULL, 0);
     launch(truth, 3, value);
     for (int set = 0; set < sets; set++) {
@@ -207,16 +208,13 @@ static void check_coverage(const char *what, bool given, int sets, int least)
     ld_model_free(model);
 }
 
-// Of 8 fits at least 6 where 95 % are right: P(X < 6) = 0.0058. scripts/prove repeats it with 200
-// (LD_FIT_SETS), of which 91.5 % may be expected at least: P(X < 183) = 0.015.
+// scripts/prove repeats it with more sets (LD_FIT_SETS).
 static void test_coverage(void **state)
 {
     (void)state;
-    bool all = getenv("LD_FIT_SETS") != NULL;
-    int sets = all ? atoi(getenv("LD_FIT_SETS")) : OF_ALL(8, 1);
-    int least = all ? (int)(0.915 * sets) : OF_ALL(6, 0);
-    check_coverage("uncertainties given", true, sets, least);
-    check_coverage("uncertainties estimated", false, sets, least);
+    int sets = getenv("LD_FIT_SETS") ? atoi(getenv("LD_FIT_SETS")) : OF_ALL(8, 1);
+    check_coverage("uncertainties given", true, sets);
+    check_coverage("uncertainties estimated", false, sets);
 }
 
 // ---- settings, priors

@@ -8,6 +8,7 @@
 #include "fit/fit_log.h"
 #include "launchdyn/launchdyn.h"
 #include "math/curves/distributions.h"
+#include "support/coverage.h"
 #include "support/scratch.h"
 
 enum { KEYS = 2, SAMPLES = 290, ALL_KEYS = 5 };
@@ -333,12 +334,12 @@ static void fit_flown(const ld_model *model, found *of)
 }
 
 // How often the truth lies inside the 95 % intervals of `sets` fits.
-static void check_coverage(const char *what, double rho, int sets, int least)
+static void check_coverage(const char *what, double rho, int sets)
 {
     static const char *const names[FLIGHT_KEYS] = {"thrust [%]", "speed [%]", "roll rate [%]",
                                                    "clock [%]", "bias [%]"};
     flown all;
-    int inside[FLIGHT_KEYS] = {0}, noisy = 0;
+    int inside[FLIGHT_KEYS] = {0}, noisy = 0, least = least_of_95(sets);
     double correlation = 0;
     ld_model *model = read_flight();
     fly_by_hand(&all);
@@ -366,16 +367,13 @@ static void check_coverage(const char *what, double rho, int sets, int least)
     ld_model_free(model);
 }
 
-// Of 40 fits at least 34 where 95 % are right: P(X < 34) = 0.003. scripts/prove repeats it with 200
-// (LD_FIT_SETS), of which 91.5 % may be expected at least: P(X < 183) = 0.015.
+// scripts/prove repeats it with more sets (LD_FIT_SETS).
 static void test_coverage(void **state)
 {
     (void)state;
-    bool all = getenv("LD_FIT_SETS") != NULL;
-    int sets = all ? atoi(getenv("LD_FIT_SETS")) : OF_ALL(40, 4);
-    int least = all ? (int)(0.915 * sets) : OF_ALL(34, 2);
-    check_coverage("white noise", 0, sets, least);
-    check_coverage("correlated noise", 0.6, sets, least);
+    int sets = getenv("LD_FIT_SETS") ? atoi(getenv("LD_FIT_SETS")) : OF_ALL(40, 4);
+    check_coverage("white noise", 0, sets);
+    check_coverage("correlated noise", 0.6, sets);
 }
 
 // ---- the sum of a correlation
