@@ -121,19 +121,26 @@ LD_OUTLINE void load_rows_of_z(const tube_system *self, tube_state *tube)
     }
 }
 
-// State of the frame R and of the modes, and their products with the fixed rows.
-LD_INLINE void tube_load(const int lanes, const tube_system *self, const launching_layout *at,
-                         const double *state, tube_state *tube)
+// State of the frame R and of the modes.
+LD_INLINE void tube_load_motion(const int lanes, const tube_system *self,
+                                const launching_layout *at, const double *state, tube_state *tube)
 {
-    int nb = self->flexible.nb;
     tube->r = v3_from(state + at->r);
     tube->q_IR = q_from(state + at->quaternion);
     tube->A_IR = q_matrix(tube->q_IR);
     tube->v = v3_from(state + at->v);
     tube->w = v3_from(state + at->w);
     tube->g = m3_apply_transposed(tube->A_IR, v3_make(0, -self->gravity, 0));
+    modal_load(lanes, self, at, state, &tube->modal);
+}
+
+// The same and the products of the modes with the fixed rows.
+LD_INLINE void tube_load(const int lanes, const tube_system *self, const launching_layout *at,
+                         const double *state, tube_state *tube)
+{
+    int nb = self->flexible.nb;
     modal_state *q = &tube->modal;
-    modal_load(lanes, self, at, state, q);
+    tube_load_motion(lanes, self, at, state, tube);
     if (__builtin_expect(q->planes_differ, 0))
         modal_overlap(lanes, &self->flexible, q);
     // the fixed rows (supports, ct, c) times the four vectors of modal coordinates and speeds

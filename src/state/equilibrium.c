@@ -141,26 +141,30 @@ static void dead_load(const problem *the, const launcher_input *input, launching
     out->base_moment = v3_cross(moment, down);
 }
 
-static rocket_place place_of(const launch_state *self, const double *y)
+static rocket_place place_at(const launch_state *self, const double *y, const launching_pose *pose)
 {
     const launching_layout *at = &self->launcher.launching.layout;
+    m3 A = q_matrix(q_from(y + at->quaternion));
+    return (rocket_place){.r = v3_add(v3_from(y + at->r), m3_apply(A, pose->p1)),
+                          .A_IB = m3_mul(A, pose->A_RB),
+                          .A_IS = m3_mul(A, pose->A_RS)};
+}
+
+static launching_pose pose_of(const launch_state *self, const double *y)
+{
     launching_pose pose;
     launching_output unused;
     launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
-    m3 A = q_matrix(q_from(y + at->quaternion));
-    return (rocket_place){.r = v3_add(v3_from(y + at->r), m3_apply(A, pose.p1)),
-                          .A_IB = m3_mul(A, pose.A_RB),
-                          .A_IS = m3_mul(A, pose.A_RS)};
+    return pose;
 }
 
 // How far the rocket stands from a place in space, in the axes of its section.
-static void off_in_space(const launch_state *self, const double *y, const rocket_place *place,
+static void off_in_space(const rocket_place *now, const rocket_place *place,
                          double off[SHOE_FREEDOMS])
 {
-    rocket_place now = place_of(self, y);
-    v3 move = m3_apply_transposed(now.A_IS, v3_sub(now.r, place->r));
-    v3 turn = rv_log(m3_mul(now.A_IB, m3_transpose(place->A_IB)));
-    turn = m3_apply_transposed(now.A_IS, turn);
+    v3 move = m3_apply_transposed(now->A_IS, v3_sub(now->r, place->r));
+    v3 turn = rv_log(m3_mul(now->A_IB, m3_transpose(place->A_IB)));
+    turn = m3_apply_transposed(now->A_IS, turn);
     off[0] = move.y;
     off[1] = move.z;
     off[2] = turn.z;
@@ -168,11 +172,14 @@ static void off_in_space(const launch_state *self, const double *y, const rocket
     off[4] = turn.x;
 }
 
-// How far the rocket stands from where the spring holds it, less what surfaces carry.
-static void off_its_place(const problem *the, const double *y, double off[SHOE_FREEDOMS])
+// How far the rocket, in that pose, stands from where the spring holds it, less what surfaces
+// carry.
+static void off_its_place(const problem *the, const double *y, const launching_pose *pose,
+                          double off[SHOE_FREEDOMS])
 {
     if (the->place) {
-        off_in_space(the->self, y, the->place, off);
+        rocket_place now = place_at(the->self, y, pose);
+        off_in_space(&now, the->place, off);
         return;
     }
     const double *x = y + the->self->launcher.launching.layout.x + X_Y;
@@ -205,7 +212,7 @@ static void launching_residual(const problem *the, const double *y, const launch
     if (count > 4)
         rocket[4] = alpha.x;
     double off[SHOE_FREEDOMS];
-    off_its_place(the, y, off);
+    off_its_place(the, y, &pose, off);
     for (int i = 0; i < count; i++)
         rocket[i] -= the->spring * off[i];
     if (self->on_breech)
@@ -551,7 +558,8 @@ static double try_pairs(const problem *the, const double *start, double extra, d
 static double held_by_spring(const problem *the, const double *y, int *worst)
 {
     double off[SHOE_FREEDOMS];
-    off_its_place(the, y, off);
+    launching_pose pose = pose_of(the->self, y);
+    off_its_place(the, y, &pose, off);
     *worst = 0;
     for (int i = 1; i < rocket_freedoms(the->self); i++)
         if (fabs(off[i]) > fabs(off[*worst]))
@@ -696,8 +704,9 @@ static bool is_away(const problem *the, const double *y)
     int count = the->self->launcher.launching.surfaces.flat ? SHOE_FREEDOMS : SHOE_FREEDOMS - 1;
     double off[SHOE_FREEDOMS];
     problem centred = *the;
+    launching_pose pose = pose_of(the->self, y);
     centred.place = NULL;
-    off_its_place(&centred, y, off);
+    off_its_place(&centred, y, &pose, off);
     for (int i = 0; i < count; i++)
         if (fabs(off[i]) > widest)
             return true;
@@ -731,10 +740,12 @@ static double release_and_settle(const problem *the, double *y)
     problem held = *the;
     held.spring = 1e7;
     for (int step = 0; step < most && held.spring < hardest; step++) {
-        rocket_place place = place_of(the->self, y);
+        launching_pose pose = pose_of(the->self, y);
+        rocket_place place = place_at(the->self, y, &pose);
         held.place = &place;
         double reached = newton_fine(&held, y, trial);
-        off_its_place(&held, trial, off);
+        pose = pose_of(the->self, trial);
+        off_its_place(&held, trial, &pose, off);
         if (reached > the->accepted || is_far(the->self, y, trial) ||
             in_common(rocket, off, before) < 0) {
             best = fmin(best, reached);

@@ -5,7 +5,7 @@ void launching_rocket_pose(const launching_system *self, const double *state, la
 {
     tube_state tube;
     rocket_state rocket;
-    tube_load(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
+    tube_load_motion(self->tube.flexible.nbp / 4, &self->tube, &self->layout, state, &tube);
     rocket_load(&self->tube, &self->layout, state, &tube, &rocket, output);
     *pose = (launching_pose){rocket.p1, rocket.at.A, rocket.A_RB, rocket.v_O1, rocket.w_B};
 }
