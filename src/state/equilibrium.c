@@ -358,24 +358,37 @@ static double newton(const problem *the, double *y)
     return now;
 }
 
+// Residual [m/s2] from which no step finds back: what kilometres of penetration would give.
+static double hopeless_residual(const launch_state *self)
+{
+    const double deepest = 3e3; // [m]
+    return deepest * self->rocket->contact.stiffness / self->motor->full.m;
+}
+
 // Newton's method with whole steps: where surfaces are touched and released of it finds which of
-// them carry, as halved steps, which stop at the kinks, do not. Leaves the best state in y.
+// them carry, as halved steps, which stop at the kinks, do not. Ends, too, where steps go off or in
+// a circle. Leaves the best state in y.
 static double newton_whole(const problem *the, double *y)
 {
+    enum { CIRCLE = 4 }; // residuals ago
     int n = the->count;
     size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
     double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], best = INFINITY;
+    double before[CIRCLE] = {0}, hopeless = hopeless_residual(the->self);
     memcpy(trial, y, size);
     for (int iteration = 0; iteration < 30; iteration++) {
         if (residual(the, trial, r))
             break;
         double now = norm(n, r);
-        bool rounding = now > 0.1 * best && best < 1e-6;
+        bool rounding = now > 0.1 * best && best < 1e-6, circles = false;
+        for (int i = 0; i < CIRCLE; i++)
+            circles |= fabs(now - before[i]) < 1e-9 * now;
+        before[iteration % CIRCLE] = now;
         if (now < best) {
             best = now;
             memcpy(y, trial, size);
         }
-        if (rounding || newton_step(the, trial, r, step))
+        if (rounding || circles || now > hopeless || newton_step(the, trial, r, step))
             break;
         for (int j = 0; j < n; j++)
             simulation_displace(the->self, the->first + j, step[j], trial);
