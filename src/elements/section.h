@@ -11,14 +11,16 @@ LD_OUTLINE void element_load_z(const tube_system *self, const modal_state *q,
                                element_motion *motion)
 {
     const packed_shapes *shapes = &motion->element->plane[PLANE_Z];
-    v4d z = v4d_all(0), z_dot = z;
+    v2d sum[4] = {{0}};
     for (int j = 0; j < self->flexible.nb; j++) {
-        v4d shape = *v4d_lanes_of(shapes->by_mode[j]);
-        z += shape * v4d_all(q->z[j]);
-        z_dot += shape * v4d_all(q->z_dot[j]);
+        const v2d *shape = v2d_lanes_of(shapes->by_mode[j]);
+        for (int i = 0; i < 2; i++) {
+            sum[i] += shape[i] * v2d_all(q->z[j]);
+            sum[2 + i] += shape[i] * v2d_all(q->z_dot[j]);
+        }
     }
-    *v4d_lanes(motion->z) = z;
-    *v4d_lanes(motion->z_dot) = z_dot;
+    memcpy(motion->z, sum, 2 * sizeof *sum);
+    memcpy(motion->z_dot, sum + 2, 2 * sizeof *sum);
 }
 
 LD_INLINE void element_load(const tube_system *self, const modal_state *q, int index,

@@ -84,40 +84,48 @@ LD_INLINE void modal_load(const int lanes, const tube_system *self, const launch
     q->planes_differ = self->z == PLANE_Z;
 }
 
-// The sum of a matrix's rows [nb], in lanes, by q.
+// The sums of a matrix's rows [nb], in lanes, by q and by q_dot; two lanes at once, of which the
+// last may be padding.
 LD_INLINE void sum_rows(const int lanes, int nb, const double row[LD_NB][LD_NB], const double *q,
-                        double *to)
+                        const double *q_dot, double *to, double *to_dot)
 {
-    for (int k = 0; k < lanes; k++) {
-        v4d sum = v4d_all(0);
-        for (int j = 0; j < nb; j++)
-            sum += v4d_lanes_of(row[j])[k] * v4d_all(q[j]);
-        v4d_lanes(to)[k] = sum;
+    for (int k = 0; k < 4 * lanes; k += 8) {
+        v2d sum[8] = {{0}};
+        for (int j = 0; j < nb; j++) {
+            const v2d *shape = v2d_lanes_of(&row[j][k]);
+            v2d by = v2d_all(q[j]), by_dot = v2d_all(q_dot[j]);
+            for (int i = 0; i < 4; i++) {
+                sum[i] += shape[i] * by;
+                sum[4 + i] += shape[i] * by_dot;
+            }
+        }
+        memcpy(to + k, sum, 4 * sizeof *sum);
+        memcpy(to_dot + k, sum + 4, 4 * sizeof *sum);
     }
 }
 
 LD_OUTLINE void modal_overlap(const int lanes, const flexible_tube *tube, modal_state *q)
 {
     const tube_overlap *overlap = tube->overlap;
-    sum_rows(lanes, tube->nb, overlap->G[PLANE_Z], q->z, q->z_on_y);
-    sum_rows(lanes, tube->nb, overlap->G[PLANE_Z], q->z_dot, q->z_dot_on_y);
-    sum_rows(lanes, tube->nb, overlap->G[PLANE_Y], q->y, q->y_on_z);
-    sum_rows(lanes, tube->nb, overlap->G[PLANE_Y], q->y_dot, q->y_dot_on_z);
+    sum_rows(lanes, tube->nb, overlap->G[PLANE_Z], q->z, q->z_dot, q->z_on_y, q->z_dot_on_y);
+    sum_rows(lanes, tube->nb, overlap->G[PLANE_Y], q->y, q->y_dot, q->y_on_z, q->y_dot_on_z);
 }
 
 // Products of the fixed rows of z, where these are its own.
 LD_OUTLINE void load_rows_of_z(const tube_system *self, tube_state *tube)
 {
     const modal_state *q = &tube->modal;
-    for (int r = 0; r < self->row_lanes; r++) {
-        v4d z = v4d_all(0), z_dot = z;
+    for (int r = 0; r < 4 * self->row_lanes; r += 4) {
+        v2d sum[4] = {{0}};
         for (int j = 0; j < self->flexible.nb; j++) {
-            v4d row = v4d_lanes_of(self->rows_by_mode[PLANE_Z][j])[r];
-            z += row * v4d_all(q->z[j]);
-            z_dot += row * v4d_all(q->z_dot[j]);
+            const v2d *row = v2d_lanes_of(&self->rows_by_mode[PLANE_Z][j][r]);
+            for (int i = 0; i < 2; i++) {
+                sum[i] += row[i] * v2d_all(q->z[j]);
+                sum[2 + i] += row[i] * v2d_all(q->z_dot[j]);
+            }
         }
-        v4d_lanes(tube->row_z)[r] = z;
-        v4d_lanes(tube->row_z_dot)[r] = z_dot;
+        memcpy(tube->row_z + r, sum, 2 * sizeof *sum);
+        memcpy(tube->row_z_dot + r, sum + 2, 2 * sizeof *sum);
     }
 }
 

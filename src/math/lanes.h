@@ -6,6 +6,9 @@
 #include "math/vec3.h"
 
 typedef double v4d __attribute__((vector_size(32), may_alias));
+/// Half of that, which stays in registers without AVX: for sums in functions of their own, which a
+/// caller's wider instructions do not reach.
+typedef double v2d __attribute__((vector_size(16), may_alias));
 
 /// An array of doubles that is also read as lanes: `count` a multiple of 4.
 #define LANE_ARRAY(name, count) _Alignas(32) double name[count]
@@ -19,9 +22,18 @@ LD_ALWAYS_INLINE const v4d *v4d_lanes_of(const double *array)
     return (const v4d *)array;
 }
 
+LD_ALWAYS_INLINE const v2d *v2d_lanes_of(const double *array)
+{
+    return (const v2d *)array;
+}
+
 LD_ALWAYS_INLINE v4d v4d_all(double a)
 {
     return (v4d){a, a, a, a};
+}
+LD_ALWAYS_INLINE v2d v2d_all(double a)
+{
+    return (v2d){a, a};
 }
 /// Sum of the four, (0 + 2) + (1 + 3).
 LD_ALWAYS_INLINE double v4d_sum(v4d a)
