@@ -5,6 +5,7 @@
 #include <hdf5.h>
 #include <stdbool.h>
 
+#include "launchdyn/origin.h"
 #include "launchdyn/status.h"
 
 // HDF5 prints its error stack unless asked not to; the setting before is put back at the end. What
@@ -54,5 +55,8 @@ char *hdf5_read_document(hid_t group, const char *key, char **name, size_t *leng
 
 // A number read back, NaN where there is none.
 double hdf5_read_number(hid_t object, const char *name);
+
+// origin_hdf5.c: the groups program and source and the text scenario of an open file.
+bool origin_write_hdf5(hid_t file, const ld_origin *origin);
 
 #endif

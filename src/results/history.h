@@ -1,4 +1,4 @@
-// The history of a run in files: HDF5 and CSV, row by row, and reading it back.
+// The history of a run in files, HDF5 and CSV, row by row; read back, or kept, in memory.
 #ifndef LD_RESULTS_HISTORY_H
 #define LD_RESULTS_HISTORY_H
 
@@ -89,5 +89,17 @@ const history_array *history_array_named(const history_data *history, const char
 
 // The values of column `name`, or NULL.
 const double *history_column(const history_data *history, const char *name);
+
+// A flight without its rows, added to room for it: instants, tube and number of a rocket.
+history_data *history_begin_flight(history_data *history, const history_data *rocket);
+
+// A history in memory, without a file: what history_read() would read of the file of the same run.
+typedef struct history_memory history_memory;
+history_memory *history_memory_new(void); // NULL: no memory
+void history_memory_free(history_memory *memory);
+const ld_sink *history_memory_sink(history_memory *memory);
+// `history` becomes what the run came to; to be freed where it is LD_OK. LD_ERR_INPUT: no rows.
+ld_status history_memory_take(const history_memory *memory, const ld_summary *summary,
+                              history_data *history, ld_error *error);
 
 #endif

@@ -220,24 +220,6 @@ static bool read_rockets(hid_t file, history_data *history)
     return there >= 0;
 }
 
-// A flight without its rows: the instants, tube and number of a rocket.
-static history_data *begin_flight(history_data *history, const history_data *rocket)
-{
-    history_data *flight = &history->flight[history->flights++];
-    *flight = (history_data){.t_ignition = rocket->t_ignition,
-                             .t_release = rocket->t_release,
-                             .t_front = rocket->t_front,
-                             .t_middle = rocket->t_middle,
-                             .t_rear = rocket->t_rear,
-                             .t_apogee = rocket->t_apogee,
-                             .t_impact = rocket->t_impact,
-                             .openings = rocket->openings,
-                             .tube = rocket->tube,
-                             .number = rocket->number};
-    memcpy(flight->opening, rocket->opening, sizeof flight->opening);
-    return flight;
-}
-
 // The flights of the rockets, as far as they have rows; of a flight alone its rows are all the
 // history there is.
 static bool read_flights(hid_t file, history_data *history)
@@ -246,7 +228,7 @@ static bool read_flights(hid_t file, history_data *history)
     for (int i = 0; fine && i < history->rockets; i++) {
         char name[40];
         snprintf(name, sizeof name, "rockets/%d/flight", i + 1);
-        history_data *flight = begin_flight(history, &history->rocket[i]);
+        history_data *flight = history_begin_flight(history, &history->rocket[i]);
         fine = read_table(file, name, flight);
         if (fine && flight->rows == 0) {
             history_free(flight);
@@ -255,7 +237,7 @@ static bool read_flights(hid_t file, history_data *history)
     }
     if (fine && history->flights == 0 && history_column(history, "angle_of_attack")) {
         history->number = 1;
-        fine = read_table(file, "history", begin_flight(history, history));
+        fine = read_table(file, "history", history_begin_flight(history, history));
     }
     return fine;
 }
@@ -304,43 +286,4 @@ ld_status history_read(const char *path, history_data *history, ld_error *error)
     if (status)
         history_free(history);
     return status;
-}
-
-void history_free(history_data *history)
-{
-    for (size_t i = 0; history->name && i < history->columns; i++)
-        free(history->name[i]);
-    for (size_t i = 0; i < history->flights; i++)
-        history_free(&history->flight[i]);
-    free(history->flight);
-    free(history->rocket);
-    for (size_t i = 0; i < history->arrays; i++) {
-        free(history->geometry[i].name);
-        free(history->geometry[i].value);
-    }
-    free(history->geometry);
-    for (size_t i = 0; history->unit && i < history->columns; i++)
-        free(history->unit[i]);
-    free(history->name);
-    free(history->unit);
-    free(history->value);
-    free(history->title);
-    free(history->stopped);
-    memset(history, 0, sizeof *history);
-}
-
-const history_array *history_array_named(const history_data *history, const char *name)
-{
-    for (size_t i = 0; i < history->arrays; i++)
-        if (strcmp(history->geometry[i].name, name) == 0)
-            return &history->geometry[i];
-    return NULL;
-}
-
-const double *history_column(const history_data *history, const char *name)
-{
-    for (size_t i = 0; i < history->columns; i++)
-        if (strcmp(history->name[i], name) == 0)
-            return history->value + i * history->rows;
-    return NULL;
 }

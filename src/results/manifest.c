@@ -10,13 +10,6 @@
 #include "base/text_file.h"
 #include "model/fields/digest.h"
 
-const char *const manifest_name[MANIFEST_FILES] = {
-    [MANIFEST_HDF5] = "history.h5",
-    [MANIFEST_CSV] = "history.csv",
-    [MANIFEST_FLIGHTS] = "flights.csv",
-    [MANIFEST_MAP] = "trajectories.kml",
-};
-
 enum { LONGEST_PATH = 4096, MOST_TEXT = 1 << 28 };
 
 // ---- files
@@ -47,39 +40,24 @@ ld_status manifest_measure(const char *path, manifest_file *file, ld_error *erro
 // ---- the seal
 
 #define HEAD "{\n  \"format\": "
-#define SEAL "  \"digest\": \""
-
-enum { SEAL_LENGTH = sizeof SEAL - 1 + 16 + sizeof "\"\n}\n" - 1 };
-
-static void write_seal(char seal[SEAL_LENGTH + 1], const char *text, size_t length)
-{
-    snprintf(seal, SEAL_LENGTH + 1, SEAL "%016" PRIx64 "\"\n}\n",
-             digest_bytes(DIGEST_BEGIN, text, length));
-}
-
-void manifest_seal(FILE *file, const char *text, size_t length)
-{
-    char seal[SEAL_LENGTH + 1];
-    write_seal(seal, text, length);
-    fwrite(text, 1, length, file);
-    fputs(seal, file);
-}
 
 // A seal was there, and its beginning or its end still is.
 static bool had_seal(const manifest *self)
 {
     return strncmp(self->text, HEAD, strlen(HEAD)) == 0 ||
-           (self->length >= SEAL_LENGTH &&
-            strncmp(self->text + self->length - SEAL_LENGTH, SEAL, strlen(SEAL)) == 0);
+           (self->length >= MANIFEST_SEAL_LENGTH &&
+            strncmp(self->text + self->length - MANIFEST_SEAL_LENGTH, MANIFEST_SEAL,
+                    strlen(MANIFEST_SEAL)) == 0);
 }
 
 static bool is_sealed(const manifest *self)
 {
-    char seal[SEAL_LENGTH + 1];
-    if (self->length < SEAL_LENGTH)
+    char seal[MANIFEST_SEAL_LENGTH + 1];
+    if (self->length < MANIFEST_SEAL_LENGTH)
         return false;
-    write_seal(seal, self->text, self->length - SEAL_LENGTH);
-    return memcmp(self->text + self->length - SEAL_LENGTH, seal, SEAL_LENGTH) == 0;
+    size_t before = self->length - MANIFEST_SEAL_LENGTH;
+    manifest_make_seal(seal, self->text, before);
+    return memcmp(self->text + before, seal, MANIFEST_SEAL_LENGTH) == 0;
 }
 
 // ---- what it says, by SQLite's reader of JSON

@@ -39,11 +39,17 @@ typedef struct manifest {
 // The first member of summary.json, "format", since it keeps digests.
 #define MANIFEST_FORMAT "2"
 
+// The last member: the digest of all before it.
+#define MANIFEST_SEAL "  \"digest\": \""
+enum { MANIFEST_SEAL_LENGTH = sizeof MANIFEST_SEAL - 1 + 16 + sizeof "\"\n}\n" - 1 };
+
 // Size and digest of the file at `path`; not `there` where it is not. Where it cannot be read the
 // status and sentence of text_file_failed().
 ld_status manifest_measure(const char *path, manifest_file *file, ld_error *error);
 
-// Writes the text of a JSON object up to its last member, then that: the digest of all before it.
+// manifest_seal.c: the last member of the JSON object whose text up to there this is; the text and
+// that member.
+void manifest_make_seal(char seal[MANIFEST_SEAL_LENGTH + 1], const char *text, size_t length);
 void manifest_seal(FILE *file, const char *text, size_t length);
 
 // Reads summary.json of a folder. LD_OK whatever it finds; LD_ERR_FILE or LD_ERR_MEMORY where the

@@ -2,7 +2,7 @@
 #ifndef LD_RESULTS_ORIGIN_H
 #define LD_RESULTS_ORIGIN_H
 
-#include <hdf5.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "launchdyn/origin.h"
@@ -14,9 +14,6 @@ bool origin_add_fact(ld_origin *origin, const char *name, const char *text);
 // "point", "sample"} of the source. Indented by two blanks a level as members of an object.
 void origin_write_program(FILE *json, const ld_origin *origin);
 void origin_write_source(FILE *json, const ld_origin *origin);
-
-// The groups program and source and the text scenario of an open file.
-bool origin_write_hdf5(hid_t file, const ld_origin *origin);
 
 // ld_origin_read() of the history at `path`, whatever its digest; an origin without a scenario
 // where it is of an earlier version, which did not say.

@@ -5,15 +5,17 @@
 #if defined(__x86_64__) || defined(__i386__)
 #include <cpuid.h>
 #endif
-#include <gnu/libc-version.h>
-#include <hdf5.h>
-#include <sqlite3.h>
 #include <stdio.h>
 #include <string.h>
 #include <sundials/sundials_version.h>
 #include <sys/utsname.h>
 #include <yaml.h>
 #include <zlib.h>
+#ifndef __EMSCRIPTEN__ // the page that simulates has no files
+#include <gnu/libc-version.h>
+#include <hdf5.h>
+#include <sqlite3.h>
+#endif
 
 extern void ilaver_(int *major, int *minor, int *patch);
 
@@ -41,16 +43,20 @@ void program_describe(program_fact *take, void *self)
     take(self, "compiler", LD_COMPILER);
     processor_name(text, sizeof text);
     take(self, "processor", text);
+#ifndef __EMSCRIPTEN__
     take(self, "C library", gnu_get_libc_version());
+#endif
     take(self, "SUNDIALS", SUNDIALSGetVersion(text, sizeof text) == 0 ? text : "unknown");
     ilaver_(&lapack[0], &lapack[1], &lapack[2]);
     snprintf(text, sizeof text, "%d.%d.%d", lapack[0], lapack[1], lapack[2]);
     take(self, "LAPACK", text);
     take(self, "BLAS", LD_BLAS);
+#ifndef __EMSCRIPTEN__
     // not asked: that starts the library, which dies without memory; it refuses another version
     snprintf(text, sizeof text, "%d.%d.%d", H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);
     take(self, "HDF5", text);
     take(self, "SQLite", sqlite3_libversion());
+#endif
     take(self, "libyaml", yaml_get_version_string());
     take(self, "zlib", zlibVersion());
 }

@@ -14,7 +14,11 @@ int hessenberg_make(hessenberg *self, int n)
     self->H = malloc((5 * square + row) * sizeof *self->H);
     if (!self->H)
         return 1;
+#ifdef LD_HAVE_AVX
     self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
+#else
+    self->wide_instructions = false;
+#endif
     self->X = self->H + square;
     self->inverse = self->X + square;
     self->rows = self->inverse + square;
