@@ -146,11 +146,11 @@ static air air_of(real_air found)
 
 static air measured_at(const atmosphere *self, double altitude)
 {
-    double piece[ATMOSPHERE_PIECE];
-    size_t interval = atmosphere_interval(&self->profile, altitude);
-    double above = atmosphere_piece(&self->profile, interval, altitude, 0, piece);
+    CURVES_KEPT(ATMOSPHERE_FUNCTIONS) kept;
+    double *block = (double *)&kept;
+    curves_keep(block, 0, &self->profile, altitude, ATMOSPHERE_FUNCTIONS);
     return air_of(
-        atmosphere_measured(piece, above, altitude, self->density_scale, self->temperature_offset));
+        atmosphere_measured(block, altitude, self->density_scale, self->temperature_offset));
 }
 
 air atmosphere_at(const atmosphere *self, double altitude)

@@ -3,6 +3,7 @@
 #define LD_ENVIRONMENT_ATMOSPHERE_LAYER_H
 
 enum { ATMOSPHERE_LAYERS = 7 };
+enum { ATMOSPHERE_FUNCTIONS = 2 }; // of measured air
 
 typedef struct atmosphere_layer {
     double base;        // [m] geopotential height where it begins

@@ -3,7 +3,7 @@
 #define LD_ENVIRONMENT_ATMOSPHERE_REAL_H
 
 #include "environment/atmosphere_layer.h"
-#include "math/curves/curves.h"
+#include "math/curves/curves_real.h"
 #include "math/real_functions.h"
 
 #define ATMOSPHERE_GRAVITY 9.80665                  // [m/s2] g_0'
@@ -11,8 +11,6 @@
 #define ATMOSPHERE_RATIO_OF_HEATS 1.4               // gamma
 #define ATMOSPHERE_EARTH_RADIUS 6356766.0           // [m] r_0
 #define ATMOSPHERE_TOP 86000.0                      // [m] geometric
-
-enum { ATMOSPHERE_PIECE = 8 }; // numbers of an interval of measured air
 
 typedef struct real_layer {
     real base, lapse, temperature, density; // as in atmosphere_layer
@@ -92,42 +90,16 @@ LD_INLINE real_air atmosphere_standard(const atmosphere_layer *layers, real alti
     return atmosphere_air(altitude, rho, warm);
 }
 
-// The interval of a measured profile that an altitude lies in, where none is known near it.
-LD_INLINE size_t atmosphere_interval(const curves *profile, double altitude)
+// Measured air at an altitude, its interval kept.
+LD_INLINE real_air atmosphere_measured(const real *kept, real altitude, real density_scale,
+                                       real temperature_offset)
 {
-    size_t low = 0, high = profile->points - 1;
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (altitude < profile->x[middle])
-            high = middle;
-        else
-            low = middle;
-    }
-    return low;
-}
-
-// The numbers of that interval, into one lane: of the logarithm of the pressure and of the virtual
-// temperature, by powers of the height above its beginning, which is given back.
-LD_INLINE double atmosphere_piece(const curves *profile, size_t interval, double altitude, int lane,
-                                  real piece[ATMOSPHERE_PIECE])
-{
-    const double *c = profile->coefficient + interval * ATMOSPHERE_PIECE;
-    for (int first = 0; first < ATMOSPHERE_PIECE; first += LANES)
-        memcpy(&piece[first + lane], c + first, sizeof(real));
-    double held = altitude < ATMOSPHERE_TOP ? altitude : ATMOSPHERE_TOP;
-    return held - profile->x[interval];
-}
-
-// Measured air by the pieces of each lane, heights above their beginnings.
-LD_INLINE real_air atmosphere_measured(real piece[ATMOSPHERE_PIECE], real above, real altitude,
-                                       real density_scale, real temperature_offset)
-{
-    for (int first = 0; first < ATMOSPHERE_PIECE; first += LANES)
-        real_turn(piece + first);
-    const real *k = piece;
-    real_pair log_p = {k[0] + above * (k[2] + above * (k[4] + above * k[6])), real_all(0)};
-    real T = k[1] + above * (k[3] + above * (k[5] + above * k[7])), warm = T + temperature_offset;
-    real rho = density_scale * real_exp(log_p) / (ATMOSPHERE_GAS_CONSTANT * warm);
+    real held = real_select(altitude < ATMOSPHERE_TOP, altitude, real_all(ATMOSPHERE_TOP));
+    real k[ATMOSPHERE_FUNCTIONS];
+    curves_kept_values(kept, held, ATMOSPHERE_FUNCTIONS, k);
+    real T = k[1], warm = T + temperature_offset;
+    real rho =
+        density_scale * real_exp((real_pair){k[0], real_all(0)}) / (ATMOSPHERE_GAS_CONSTANT * warm);
     return atmosphere_air(altitude, rho, warm);
 }
 

@@ -46,6 +46,18 @@ static double gust_share(const ld_gust *gust, double t)
     return left < gust->fall ? 0.5 * (1 - cos(pi * left / gust->fall)) : 1;
 }
 
+v3 wind_add_gusts(const wind *self, double t, v3 steady)
+{
+    v3 v = steady;
+    for (int i = 0; i < self->gust_count; i++) {
+        const ld_gust *gust = &self->gust[i];
+        double share = gust_share(gust, t);
+        if (share > 0)
+            v = v3_add(v, along(share * gust->speed, gust->heading));
+    }
+    return v;
+}
+
 v3 wind_at(const wind *self, double t, double height)
 {
     v3 v = self->steady;
@@ -54,13 +66,7 @@ v3 wind_at(const wind *self, double t, double height)
         curves_held(&self->profile, height, level);
         v = v3_axpy(v, self->scale, v3_make(level[0], 0, level[1]));
     }
-    for (int i = 0; i < self->gust_count; i++) {
-        const ld_gust *gust = &self->gust[i];
-        double share = gust_share(gust, t);
-        if (share > 0)
-            v = v3_add(v, along(share * gust->speed, gust->heading));
-    }
-    return v;
+    return wind_add_gusts(self, t, v);
 }
 
 double wind_next_corner(const wind *self, double t)

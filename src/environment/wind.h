@@ -9,6 +9,8 @@
 #include "model/blocks/environment.h"
 #include "model/blocks/limits.h"
 
+enum { WIND_FUNCTIONS = 2 }; // of a profile: along x and z
+
 typedef struct wind {
     bool present;
     bool geographic; // axes north, up, east and heights above the ellipsoid; else axes of I and
@@ -26,6 +28,9 @@ void wind_free(wind *self);
 
 // Velocity of the air [m/s] in the wind's axes at time t and height [m].
 v3 wind_at(const wind *self, double t, double height);
+
+// What the gusts make of the wind without them.
+v3 wind_add_gusts(const wind *self, double t, v3 steady);
 
 // The next corner of a gust after t, where the wind is not smooth in time; infinity without.
 double wind_next_corner(const wind *self, double t);

@@ -38,6 +38,7 @@ typedef struct lane_group {
     double *number;    // [FLIGHT_NUMBERS][count]
     double *step;      // [DORMAND_PRINCE_NUMBERS][count]
     double *extremes;  // [FLIGHT_EXTREMES][count]
+    double *tables;    // [FLIGHT_TABLES][count]
     flight_lanes side; // the flights as their equations see them
     flight_step ends;  // in `step`
 } lane_group;
@@ -79,6 +80,15 @@ static void get_column(const double *block, const lane_group *self, int i, void 
     (self)                                                                                         \
         ->step[offsetof(dormand_prince_numbers, member) / sizeof(double) * (size_t)(self)->count + \
                (size_t)(i)]
+
+// A flight that is new in column i.
+static void enter_column(lane_group *self, int i, const lane *one)
+{
+    static const flight_tables none;
+    self->side.system[i] = one->flight.job.system;
+    self->side.phase[i] = &one->run.phase;
+    put_column(self->tables, self, i, &none, FLIGHT_TABLES);
+}
 
 // The flight of lane `from` into column i, from where it continues.
 static void put_flight(lane_group *self, int i, int from)
@@ -148,8 +158,7 @@ static bool load_next(lane_group *self, int i)
     } else {
         one->flies = true;
         one->changes = -1; // none is
-        self->side.system[i] = flight->job.system;
-        self->side.phase[i] = &one->run.phase;
+        enter_column(self, i, one);
         put_flight(self, i, i);
     }
     return true;
@@ -168,8 +177,7 @@ static void fill_free_lanes(lane_group *self, int flying)
 {
     for (int i = 0; i < self->count; i++)
         if (!self->lane[i].flies) {
-            self->side.system[i] = self->side.system[flying];
-            self->side.phase[i] = self->side.phase[flying];
+            enter_column(self, i, &self->lane[flying]);
             put_flight(self, i, flying);
         }
 }
@@ -219,6 +227,7 @@ static void lay_out(lane_group *self, double *block)
     self->side.number = self->number = block;
     self->step = self->number + FLIGHT_NUMBERS * self->count;
     self->extremes = self->step + DORMAND_PRINCE_NUMBERS * self->count;
+    self->side.tables = self->tables = self->extremes + FLIGHT_EXTREMES * self->count;
     self->ends = (flight_step){
         .done = &OF_STEP(self, 0, outcome),
         .t0 = &OF_STEP(self, 0, t0),
@@ -236,7 +245,7 @@ ld_status flight_lanes_fly(int lanes, const lane_source *source, ld_error *error
     // blocks and lanes want the alignment of the widest vectors
     enum {
         ALIGNMENT = 64,
-        BLOCK = (FLIGHT_NUMBERS + DORMAND_PRINCE_NUMBERS + FLIGHT_EXTREMES) * MOST
+        BLOCK = (FLIGHT_NUMBERS + DORMAND_PRINCE_NUMBERS + FLIGHT_EXTREMES + FLIGHT_TABLES) * MOST
     };
     lane_group self = {.source = source, .width = widths, .count = lanes};
     while (self.width->lanes != lanes)

@@ -753,7 +753,7 @@ ld_status flight_run_step(flight_run *run)
     dormand_prince_numbers *step = &run->steps.step;
     dormand_prince_step(&run->steps, step->t_stop);
     const flight_step ends = ends_of(run);
-    bool seen = flight_watch(run->job->system, &run->phase.number, &ends);
+    bool seen = flight_watch(run->job->system, &run->phase, &ends);
     bool due = step->steps >= run->next_check || step->t == step->t_stop ||
                step->outcome == DORMAND_PRINCE_LOST;
     return seen || due ? flight_run_examine(run) : LD_OK;

@@ -107,38 +107,6 @@ LD_ALWAYS_INLINE real real_abs(real a)
     return real_from_bits(real_to_bits(a) & ~((real_bits){0} + ((uint64_t)1 << 63)));
 }
 
-// Turns a square of numbers: number j of a[i] becomes number i of a[j].
-LD_ALWAYS_INLINE void real_turn(real a[LANES])
-{
-#if LANES == 4
-    __m256d low0 = _mm256_unpacklo_pd((__m256d)a[0], (__m256d)a[1]);
-    __m256d low2 = _mm256_unpacklo_pd((__m256d)a[2], (__m256d)a[3]);
-    __m256d high0 = _mm256_unpackhi_pd((__m256d)a[0], (__m256d)a[1]);
-    __m256d high2 = _mm256_unpackhi_pd((__m256d)a[2], (__m256d)a[3]);
-    a[0] = (real)_mm256_permute2f128_pd(low0, low2, 0x20);
-    a[1] = (real)_mm256_permute2f128_pd(high0, high2, 0x20);
-    a[2] = (real)_mm256_permute2f128_pd(low0, low2, 0x31);
-    a[3] = (real)_mm256_permute2f128_pd(high0, high2, 0x31);
-#elif LANES == 8
-    // squares of 2, then of 4, then of 8: those beside the diagonal change places
-    for (int half = 1; half < LANES; half *= 2)
-        for (int i = 0; i < LANES; i++) {
-            if (i & half)
-                continue;
-            real_condition first, second;
-            for (int lane = 0; lane < LANES; lane++) {
-                first[lane] = lane & half ? lane - half + LANES : lane;
-                second[lane] = lane & half ? lane + LANES : lane + half;
-            }
-            __m512d low = (__m512d)a[i], high = (__m512d)a[i + half];
-            a[i] = (real)_mm512_permutex2var_pd(low, (__m512i)first, high);
-            a[i + half] = (real)_mm512_permutex2var_pd(low, (__m512i)second, high);
-        }
-#else
-    (void)a;
-#endif
-}
-
 // The larger; b where a is not a number.
 LD_ALWAYS_INLINE real real_max(real a, real b)
 {

@@ -258,8 +258,7 @@ static ld_status merge(const part_list *list, curves *all)
     size_t most = 2 + FIN_POINTS; // with 0, and the end of the last
     for (int i = 0; i < list->count; i++)
         most += list->part[i].given.points;
-    int columns = SURFACES_FIRST + air->slopes;
-    *all = (curves){.count = columns > SURFACES_EIGHT ? SURFACES_COLUMNS : SURFACES_EIGHT};
+    *all = (curves){.count = SURFACES_FIRST + air->slopes};
     size_t width = (size_t)all->count;
     all->x = malloc(most * sizeof(double));
     all->coefficient = calloc(4 * width * most, sizeof(double));

@@ -7,11 +7,10 @@
 #include "model/blocks/limits.h"
 
 // Columns of the table: ca_power_off, ca_power_on, the sums of cl_delta cant and of cl_p, then the
-// slope of each surface that has one; lanes read them in eights.
+// slope of each surface that has one.
 enum {
     SURFACES_FIRST = 4,
-    SURFACES_EIGHT = 8,
-    SURFACES_COLUMNS = 16,
+    SURFACES_COLUMNS = SURFACES_FIRST + LD_MAX_AIR_SURFACES,
     SURFACES_ACROSS = LD_MAX_AIR_SURFACES + 1, // of body lift, and that of `crossflow`
 };
 

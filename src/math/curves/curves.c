@@ -106,6 +106,19 @@ void curves_free(curves *self)
     *self = (curves){0};
 }
 
+size_t curves_find(const curves *self, double x)
+{
+    size_t low = 0, high = self->points - 1;
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        if (x < self->x[middle])
+            high = middle;
+        else
+            low = middle;
+    }
+    return low;
+}
+
 void curves_values(const curves *self, size_t interval, double x, double *values)
 {
     curves_first_values(self, interval, x, self->count, values);
@@ -115,5 +128,5 @@ void curves_held(const curves *self, double x, double *values)
 {
     double first = self->x[0], last = self->x[self->points - 1];
     x = x < first ? first : x > last ? last : x;
-    curves_values(self, curves_interval(self, x, 0), x, values);
+    curves_values(self, curves_find(self, x), x, values);
 }

@@ -16,6 +16,14 @@ typedef struct curves {
     double *coefficient; // [points - 1][4][count] of (x - x_i)^k, and room for one more; owned
 } curves;
 
+// What is kept of an interval between look-ups (curves_real.h), all doubles: from <= x < to,
+// infinite at the table's ends; all 0: nothing is kept. Coefficient [power][function] of x - start.
+#define CURVES_KEPT(functions)                                                                     \
+    struct {                                                                                       \
+        double from, to, start;                                                                    \
+        double coefficient[4 * (functions)];                                                       \
+    }
+
 // Columns 1 .. of `data` [rows][columns] over column 0, which must increase; at least one row (with
 // one row the functions are constant).
 ld_status curves_build(curves *self, size_t rows, size_t columns, const double *data,
@@ -35,6 +43,9 @@ static inline size_t curves_interval(const curves *self, double x, size_t hint)
         i++;
     return i;
 }
+
+// The same interval without a hint.
+size_t curves_find(const curves *self, double x);
 
 // The first `count` values at x by the polynomials of that interval; outside the table they
 // continue.

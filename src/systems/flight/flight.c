@@ -54,12 +54,19 @@ static flight_numbers numbers_of(const flight_system *self)
                 .crossflow_at = body->crossflow_at,
                 .last_mach = body->last_mach},
         .earth = {globe->altitude, globe->gravity, globe->gm, globe->j2, globe->rotation, globe->a,
-                  globe->b, globe->e2, self->has_ground ? self->ground : -INFINITY},
+                  globe->b, globe->e2, self->ground, self->has_ground ? self->ground : -INFINITY},
+        .wind = {.scale = self->wind.scale},
     };
     v3_store(number.air.damping, body->damping);
     memcpy(number.air.slope_at, body->surfaces.slope_at, sizeof number.air.slope_at);
     memcpy(number.air.across_at, body->surfaces.across_at, sizeof number.air.across_at);
     memcpy(number.air.across, body->surfaces.across, sizeof number.air.across);
+    v3_store(number.wind.steady, self->wind.steady);
+    if (self->wind.has_profile) {
+        number.wind.first = self->wind.profile.x[0];
+        number.wind.last = self->wind.profile.x[self->wind.profile.points - 1];
+    }
+    memcpy(number.wind.axes, globe->flat ? globe->A_IN.a : globe->A_EI.a, sizeof number.wind.axes);
     v3_store(number.thrust_point, self->thrust_point);
     v3_store(number.thrust_direction, self->thrust_direction);
     set_masses(&self->motor.full, &self->motor.empty, self->motor.propellant, &number);
@@ -226,26 +233,14 @@ double flight_thrust(const flight_system *self, const flight_phase *phase, doubl
 
 // ---- the air
 
-v3 flight_wind(const flight_system *self, double t, v3 r, double altitude)
+v3 flight_from_north(const flight_system *self, double t, v3 r, v3 v)
 {
-    const wind *moving = &self->wind;
-    const earth *globe = &self->earth;
-    if (globe->flat) {
-        v3 v = wind_at(moving, t, moving->geographic ? altitude : r.y - self->ground);
-        return moving->geographic ? m3_apply(globe->A_IN, v) : v;
-    }
-    m3 A_CE = earth_turn(globe, t);
-    if (moving->geographic) {
-        v3 r_E = m3_apply_transposed(A_CE, r);
-        geodetic place = earth_geodetic(globe, r_E);
-        v3 v = wind_at(moving, t, altitude);
-        return m3_apply(A_CE, m3_apply(earth_local_axes(place.latitude, place.longitude), v));
-    }
-    return m3_apply(A_CE, m3_apply(globe->A_EI, wind_at(moving, t, altitude - self->ground)));
+    m3 A_CE = earth_turn(&self->earth, t);
+    geodetic place = earth_geodetic(&self->earth, m3_apply_transposed(A_CE, r));
+    return m3_apply(A_CE, m3_apply(earth_local_axes(place.latitude, place.longitude), v));
 }
 
-// Height of the point r of C over the ground, as turbulence counts it.
-static double height_over_ground(const flight_system *self, v3 r, double altitude)
+double flight_height_over_ground(const flight_system *self, v3 r, double altitude)
 {
     return (self->earth.flat ? r.y : altitude) - self->ground;
 }
@@ -254,7 +249,7 @@ v3 flight_turbulence(const flight_system *self, double t, v3 r, double altitude,
                      turbulence_scales *scales)
 {
     const earth *globe = &self->earth;
-    *scales = turbulence_scales_at(&self->turbulence, height_over_ground(self, r, altitude));
+    *scales = turbulence_scales_at(&self->turbulence, flight_height_over_ground(self, r, altitude));
     v3 v = turbulence_velocity(&self->turbulence, scales, xi[0], xi[1]);
     return globe->flat ? v : m3_apply(earth_turn(globe, t), m3_apply(globe->A_EI, v));
 }
@@ -264,23 +259,6 @@ static m3 ground_axes(const flight_system *self, double t)
     return m3_mul(earth_turn(&self->earth, t), self->earth.A_EI); // A_CI
 }
 
-moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
-{
-    v3 v = v3_zero(), place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
-    double altitude = earth_altitude(&self->earth, place);
-    if (self->wind.present)
-        v = flight_wind(self, t, place, altitude);
-    if (self->turbulence.present) {
-        turbulence_scales scales =
-            turbulence_scales_at(&self->turbulence, height_over_ground(self, place, altitude));
-        double xi[2] = {-left / scales.L_u, -left / scales.L_w};
-        v = v3_add(v, flight_turbulence(self, t, place, altitude, xi, &scales));
-    }
-    air here = atmosphere_at(&self->atmosphere, altitude);
-    return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
-                        here.speed_of_sound};
-}
-
 // ---- side by side
 
 bool flight_is_like(const flight_system *self, const flight_system *other)
@@ -288,6 +266,9 @@ bool flight_is_like(const flight_system *self, const flight_system *other)
     return self->earth.flat == other->earth.flat &&
            self->atmosphere.kind == other->atmosphere.kind &&
            self->wind.present == other->wind.present &&
+           self->wind.geographic == other->wind.geographic &&
+           self->wind.has_profile == other->wind.has_profile &&
+           !self->wind.gust_count == !other->wind.gust_count &&
            self->turbulence.present == other->turbulence.present &&
            self->aerodynamics.present == other->aerodynamics.present &&
            self->parachutes == other->parachutes &&

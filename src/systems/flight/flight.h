@@ -68,8 +68,14 @@ typedef struct flight_numbers {
     } air;
     struct {
         double altitude, gravity, gm, j2, rotation, a, b, e2; // as in environment/earth.h
+        double ground;                                        // [m]
         double watched; // [m] steps that end so low are checked; -infinity: none is
     } earth;
+    struct {
+        double steady[3], scale; // as in environment/wind.h
+        double first, last;      // [m] between which the profile has rows
+        double axes[9];          // from its axes to those of I on a flat Earth, else from I to E
+    } wind;
     struct {
         double open, t0, area, slope; // 1: the rocket hangs below one; [m2] at t0 [s], [m2/s]
     } parachute;
@@ -100,18 +106,25 @@ typedef struct flight_system {
 ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error);
 void flight_free(flight_system *self);
 
+// The intervals of the tables that a flight was in last.
+typedef struct flight_tables {
+    CURVES_KEPT(SURFACES_COLUMNS) aerodynamics;
+    CURVES_KEPT(ATMOSPHERE_FUNCTIONS) air;
+    CURVES_KEPT(WIND_FUNCTIONS) wind;
+} flight_tables;
+enum { FLIGHT_TABLES = sizeof(flight_tables) / sizeof(double) };
+
 // What is switched between steps.
 typedef struct flight_phase {
     double t_ignition; // [s]
     int piece;         // of the thrust curve
     bool burning;
-    size_t interval;                 // of the aerodynamic table, where it was last read
-    size_t air_interval;             // of the measured air likewise
     bool hangs;                      // below a parachute
     double hangs_since, area, slope; // its drag area [m2] then [s], [m2/s] while it fills
     double lowest_trigger; // [m] height at or below which a parachute's trigger waits; else -inf
     int changes;           // of the numbers, so far
     flight_numbers number;
+    flight_tables tables;
 } flight_phase;
 
 // Begins a piece of the thrust curve (elements/motor.h).
@@ -137,8 +150,9 @@ void flight_rates(const flight_system *self, flight_phase *phase, double t, cons
 enum { FLIGHT_MOST_LANES = 8, FLIGHT_NUMBERS = sizeof(flight_numbers) / sizeof(double) };
 typedef struct flight_lanes {
     const flight_system *system[FLIGHT_MOST_LANES];
-    flight_phase *phase[FLIGHT_MOST_LANES]; // of which the intervals are kept
-    const double *number;                   // [FLIGHT_NUMBERS][lanes] of the phases
+    const flight_phase *phase[FLIGHT_MOST_LANES];
+    const double *number; // [FLIGHT_NUMBERS][lanes] of the phases
+    double *tables;       // [FLIGHT_TABLES][lanes], kept up by all who look them up
 } flight_lanes;
 
 // Whether the equations of the two ask for the same functions.
@@ -173,8 +187,7 @@ enum { FLIGHT_EXTREMES = sizeof(flight_extremes) / sizeof(double) };
 // Takes the ends of steps into the extremes, but for those of which more must be known: those that
 // may hold the highest point, the largest Mach number or dynamic pressure, or end on the ground,
 // beyond the aerodynamic table or tail first. These are said: bit i for lane i.
-unsigned flight_watch(const flight_system *self, const flight_numbers *number,
-                      const flight_step *step);
+unsigned flight_watch(const flight_system *self, flight_phase *phase, const flight_step *step);
 unsigned flight_watch_avx2(const flight_lanes *lanes, const flight_step *step);
 unsigned flight_watch_avx512(const flight_lanes *lanes, const flight_step *step);
 
@@ -186,9 +199,13 @@ bool flight_speeds_up(const flight_system *self, const double *state, const doub
 bool flight_pressure_turns(const flight_system *self, const flight_step *step,
                            const double density[2], double pressure);
 
-// Velocity of the air against the ground, in C, at the point r of C: without turbulence, and the
-// turbulence, with its scales, where the distances flown through the air have come to xi.
-v3 flight_wind(const flight_system *self, double t, v3 r, double altitude);
+// Height of the point r of C over the ground, by which turbulence goes.
+double flight_height_over_ground(const flight_system *self, v3 r, double altitude);
+
+// The velocity v in axes north, up, east at the point r of C, on a round Earth, in C.
+v3 flight_from_north(const flight_system *self, double t, v3 r, v3 v);
+// Velocity of turbulence against the ground, in C, at the point r of C, with its scales, where the
+// distances flown through the air have come to xi.
 v3 flight_turbulence(const flight_system *self, double t, v3 r, double altitude, const double xi[2],
                      turbulence_scales *scales);
 

@@ -1,12 +1,13 @@
 // The equations of motion of flights side by side, one in each lane (math/real.h): the text of
-// flight_default.c, which has one lane, and of flight_avx2.c and flight_avx512.c. Wind, turbulence
-// and tables are asked for lane by lane.
+// flight_default.c, which has one lane, and of flight_avx2.c and flight_avx512.c. Turbulence, gusts
+// and the intervals of tables are found lane by lane.
 #ifndef LD_SYSTEMS_FLIGHT_CODE_H
 #define LD_SYSTEMS_FLIGHT_CODE_H
 
 #include "elements/air/aerodynamics_real.h"
 #include "environment/atmosphere_real.h"
 #include "environment/earth_real.h"
+#include "environment/wind_real.h"
 #include "math/real_sine_cosine.h"
 #include "math/vectors/real_vec3.h"
 #include "model/blocks/rocket.h"
@@ -73,26 +74,99 @@ LD_INLINE real_wrench jet_damping(const flight_lanes *lanes, const burning *mass
 typedef struct flow {
     real altitude;
     real_air air;
+    real3 wind; // velocity of the air against the ground, without turbulence
     real3 v;
     real xi_dot[2];
 } flow;
 
-// Less the wind's velocity and that of turbulence.
-LD_INLINE void take_wind(const flight_lanes *lanes, real t, real3 r, const real xi[2], flow *out)
+// A block of the intervals kept.
+#define KEPT(member) ((real *)lanes->tables + offsetof(flight_tables, member) / sizeof(double))
+
+LD_INLINE real3 add_gusts(const flight_lanes *lanes, real t, real3 v)
+{
+    for (int i = 0; i < LANES; i++) {
+        v3 out = {REAL_LANE(v.x, i), REAL_LANE(v.y, i), REAL_LANE(v.z, i)};
+        out = wind_add_gusts(&lanes->system[i]->wind, REAL_LANE(t, i), out);
+        REAL_LANE(v.x, i) = out.x;
+        REAL_LANE(v.y, i) = out.y;
+        REAL_LANE(v.z, i) = out.z;
+    }
+    return v;
+}
+
+// Velocity of the air against the ground in the wind's axes.
+LD_INLINE real3 wind_in_its_axes(const flight_lanes *lanes, real t, real height)
+{
+    const wind *first = &lanes->system[0]->wind;
+    real3 v = THREE_OF(wind.steady);
+    if (first->has_profile) {
+        real last = OF(wind.last), held = real_select(height < OF(wind.first), OF(wind.first),
+                                                      real_select(height > last, last, height));
+        real *kept = KEPT(wind);
+        unsigned left = curves_left(kept, held);
+        for (int i = 0; left; i++, left >>= 1)
+            if (left & 1)
+                curves_keep(kept, i, &lanes->system[i]->wind.profile, REAL_LANE(held, i),
+                            WIND_FUNCTIONS);
+        v = wind_by_profile(v, OF(wind.scale), kept, held);
+    }
+    return first->gust_count > 0 ? add_gusts(lanes, t, v) : v;
+}
+
+LD_INLINE real3 turn_wind(const flight_lanes *lanes, real3 v)
+{
+    real33 A;
+    memcpy(&A, REALS(lanes->number, flight_numbers, wind.axes), sizeof A);
+    return real33_apply(&A, v);
+}
+
+// From axes north, up, east at the points r of C to C.
+LD_INLINE real3 turn_from_north(const flight_lanes *lanes, real t, real3 r, real3 v)
+{
+    for (int i = 0; i < LANES; i++) {
+        v3 out = flight_from_north(lanes->system[i], REAL_LANE(t, i),
+                                   (v3){REAL_LANE(r.x, i), REAL_LANE(r.y, i), REAL_LANE(r.z, i)},
+                                   (v3){REAL_LANE(v.x, i), REAL_LANE(v.y, i), REAL_LANE(v.z, i)});
+        REAL_LANE(v.x, i) = out.x;
+        REAL_LANE(v.y, i) = out.y;
+        REAL_LANE(v.z, i) = out.z;
+    }
+    return v;
+}
+
+// Velocity of the air against the ground, without turbulence, at points r of C, in C.
+LD_INLINE real3 wind_of_lanes(const flight_lanes *lanes, real t, real3 r, real altitude)
+{
+    const flight_system *first = lanes->system[0];
+    bool flat = first->earth.flat, geographic = first->wind.geographic;
+    real height = altitude;
+    if (!geographic)
+        height = (flat ? r.y : altitude) - OF(earth.ground);
+    real3 v = wind_in_its_axes(lanes, t, height);
+    if (flat)
+        return geographic ? turn_wind(lanes, v) : v;
+    if (geographic)
+        return turn_from_north(lanes, t, r, v);
+    real s, c;
+    real_sine_cosine(OF(earth.rotation) * t, &s, &c);
+    v = turn_wind(lanes, v);
+    return (real3){c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+}
+
+// Less the velocity of turbulence, v being that without it.
+LD_INLINE void take_turbulence(const flight_lanes *lanes, real t, real3 r, const real xi[2],
+                               flow *out)
 {
     for (int i = 0; i < LANES; i++) {
         const flight_system *system = lanes->system[i];
         v3 place = {REAL_LANE(r.x, i), REAL_LANE(r.y, i), REAL_LANE(r.z, i)};
         v3 v = {REAL_LANE(out->v.x, i), REAL_LANE(out->v.y, i), REAL_LANE(out->v.z, i)};
         double now = REAL_LANE(t, i), altitude = REAL_LANE(out->altitude, i);
-        v = v3_sub(v, flight_wind(system, now, place, altitude));
-        if (system->turbulence.present) {
-            turbulence_scales scales;
-            double mean_speed = v3_norm(v), at[2] = {REAL_LANE(xi[0], i), REAL_LANE(xi[1], i)};
-            v = v3_sub(v, flight_turbulence(system, now, place, altitude, at, &scales));
-            REAL_LANE(out->xi_dot[0], i) = mean_speed / scales.L_u;
-            REAL_LANE(out->xi_dot[1], i) = mean_speed / scales.L_w;
-        }
+        turbulence_scales scales;
+        double mean_speed = v3_norm(v), at[2] = {REAL_LANE(xi[0], i), REAL_LANE(xi[1], i)};
+        v = v3_sub(v, flight_turbulence(system, now, place, altitude, at, &scales));
+        REAL_LANE(out->xi_dot[0], i) = mean_speed / scales.L_u;
+        REAL_LANE(out->xi_dot[1], i) = mean_speed / scales.L_w;
         REAL_LANE(out->v.x, i) = v.x;
         REAL_LANE(out->v.y, i) = v.y;
         REAL_LANE(out->v.z, i) = v.z;
@@ -100,21 +174,15 @@ LD_INLINE void take_wind(const flight_lanes *lanes, real t, real3 r, const real 
 }
 
 // Measured air at the altitude of each lane.
-LD_INLINE void look_up_air(const flight_lanes *lanes, flow *out)
+LD_INLINE real_air look_up_air(const flight_lanes *lanes, real altitude)
 {
-    real piece[ATMOSPHERE_PIECE], above;
-    for (int lane = 0; lane < LANES; lane++) {
-        double altitude = REAL_LANE(out->altitude, lane);
-        const curves *profile = &lanes->system[lane]->atmosphere.profile;
-        flight_phase *phase = lanes->phase[lane];
-        size_t interval = phase ? curves_interval(profile, altitude, phase->air_interval)
-                                : atmosphere_interval(profile, altitude);
-        if (phase)
-            phase->air_interval = interval;
-        REAL_LANE(above, lane) = atmosphere_piece(profile, interval, altitude, lane, piece);
-    }
-    out->air = atmosphere_measured(piece, above, out->altitude, OF(air.density_scale),
-                                   OF(air.temperature_offset));
+    real *kept = KEPT(air);
+    unsigned left = curves_left(kept, altitude);
+    for (int i = 0; left; i++, left >>= 1)
+        if (left & 1)
+            curves_keep(kept, i, &lanes->system[i]->atmosphere.profile, REAL_LANE(altitude, i),
+                        ATMOSPHERE_FUNCTIONS);
+    return atmosphere_measured(kept, altitude, OF(air.density_scale), OF(air.temperature_offset));
 }
 
 LD_INLINE real altitude_of(const flight_lanes *lanes, real3 r)
@@ -136,42 +204,29 @@ LD_INLINE flow flow_at(const flight_lanes *lanes, real t, real3 r, real3 v, cons
         out.air = atmosphere_standard(first->atmosphere.layer, out.altitude, OF(air.density_scale),
                                       OF(air.temperature_offset));
     } else if (first->atmosphere.kind == LD_ATMOSPHERE_PROFILE) {
-        look_up_air(lanes, &out);
+        out.air = look_up_air(lanes, out.altitude);
     } else {
         out.air = (real_air){OF(air.density), OF(air.speed_of_sound)};
     }
-    if (first->wind.present)
-        take_wind(lanes, t, r, xi, &out);
+    if (first->wind.present) {
+        out.wind = wind_of_lanes(lanes, t, r, out.altitude);
+        out.v = real3_sub(out.v, out.wind);
+    }
+    if (first->turbulence.present)
+        take_turbulence(lanes, t, r, xi, &out);
     return out;
 }
 
-// The first `columns` coefficients of each lane's table at its Mach number, with those that fill
-// up the last eight.
-LD_INLINE void look_up(const flight_lanes *lanes, real mach, int columns, real *k)
+// The first `functions` coefficients of each lane's table at its Mach number.
+LD_INLINE void look_up(const flight_lanes *lanes, real mach, int functions, real *k)
 {
-    for (int lane = 0; lane < LANES; lane++) {
-        double at = REAL_LANE(mach, lane);
-        const curves *table = &lanes->system[lane]->aerodynamics.table;
-        size_t *interval = &lanes->phase[lane]->interval;
-        *interval = curves_interval(table, at, *interval);
-#if LANES == 1
-        curves_first_values(table, *interval, at, columns, k);
-#else
-        // of one lane as many columns at once as there are lanes, then turned
-        const double *c = table->coefficient + *interval * 4 * (size_t)table->count;
-        double t = at - table->x[*interval];
-        for (int first = 0; first < columns; first += LANES) {
-            real c0, c1, c2, c3;
-            memcpy(&c0, c + first, sizeof c0);
-            memcpy(&c1, c + first + table->count, sizeof c1);
-            memcpy(&c2, c + first + 2 * table->count, sizeof c2);
-            memcpy(&c3, c + first + 3 * table->count, sizeof c3);
-            k[first + lane] = c0 + t * (c1 + t * (c2 + t * c3));
-        }
-#endif
-    }
-    for (int first = 0; first < columns; first += LANES)
-        real_turn(k + first);
+    real *kept = KEPT(aerodynamics);
+    unsigned left = curves_left(kept, mach);
+    for (int i = 0; left; i++, left >>= 1)
+        if (left & 1)
+            curves_keep(kept, i, &lanes->system[i]->aerodynamics.table, REAL_LANE(mach, i),
+                        functions);
+    curves_kept_values(kept, mach, functions, k);
 }
 
 // Rotation about x by an angle of which cosine and sine are given, and back.
@@ -198,20 +253,9 @@ LD_INLINE void wind_at_surfaces(const flight_lanes *lanes, real t, real3 r, cons
                *across_at = REALS(lanes->number, flight_numbers, air.across_at);
     for (int k = 0; k < count; k++) {
         real3 place = {k < slopes ? slope_at[k] : across_at[k - slopes], real_all(0), real_all(0)};
-        real3 arm = real3_sub(place, rocket->center), more = arm;
+        real3 arm = real3_sub(place, rocket->center);
         real3 at = real3_add(r, real33_apply(rocket->A, roll(rocket->c, rocket->s, arm)));
-        real altitude = altitude_of(lanes, at);
-        for (int i = 0; i < LANES; i++) {
-            const flight_system *system = lanes->system[i];
-            double now = REAL_LANE(t, i);
-            v3 there = {REAL_LANE(at.x, i), REAL_LANE(at.y, i), REAL_LANE(at.z, i)};
-            v3 center = {REAL_LANE(r.x, i), REAL_LANE(r.y, i), REAL_LANE(r.z, i)};
-            v3 v = v3_sub(flight_wind(system, now, there, REAL_LANE(altitude, i)),
-                          flight_wind(system, now, center, REAL_LANE(here->altitude, i)));
-            REAL_LANE(more.x, i) = v.x;
-            REAL_LANE(more.y, i) = v.y;
-            REAL_LANE(more.z, i) = v.z;
-        }
+        real3 more = real3_sub(wind_of_lanes(lanes, t, at, altitude_of(lanes, at)), here->wind);
         shear[k] = roll(rocket->c, -rocket->s, real33_apply_transposed(rocket->A, more));
     }
 }
@@ -221,10 +265,7 @@ LD_INLINE real_wrench wrench_of_surfaces(const flight_lanes *lanes, real held,
 {
     const air_surfaces *first = &lanes->system[0]->aerodynamics.surfaces;
     real k[SURFACES_COLUMNS];
-    if (first->slopes > SURFACES_EIGHT - SURFACES_FIRST)
-        look_up(lanes, held, SURFACES_COLUMNS, k);
-    else
-        look_up(lanes, held, SURFACES_EIGHT, k);
+    look_up(lanes, held, SURFACES_FIRST + first->slopes, k);
     const real_surfaces all = {OF(air.half_area),
                                OF(air.diameter),
                                first->slopes,
@@ -256,7 +297,7 @@ LD_INLINE real_wrench wrench_of_lanes(const flight_lanes *lanes, real t, real3 r
             wind_at_surfaces(lanes, t, r, here, rocket, shear);
         return wrench_of_surfaces(lanes, held, &through, first->feels_shear ? shear : NULL);
     }
-    real coefficient[AERODYNAMICS_COLUMNS + 1];
+    real coefficient[AERODYNAMICS_COLUMNS];
     look_up(lanes, held, AERODYNAMICS_COLUMNS, coefficient);
     const real_body body = {OF(air.half_area), OF(air.diameter), OF(air.cant),
                             OF(air.crossflow_drag), OF(air.crossflow_at)};

@@ -4,17 +4,31 @@
 #include "math/vectors/mat3.h"
 #include "systems/flight/flight_code.h"
 
+static flight_lanes lane_of(const flight_system *self, flight_phase *phase)
+{
+    return (flight_lanes){
+        {self}, {phase}, (const double *)&phase->number, (double *)&phase->tables};
+}
+
+// Where nothing is kept.
+static flight_lanes lane_without_phase(const flight_system *self, flight_tables *tables)
+{
+    tables->aerodynamics.from = tables->aerodynamics.to = 0;
+    tables->air.from = tables->air.to = 0;
+    tables->wind.from = tables->wind.to = 0;
+    return (flight_lanes){{self}, {NULL}, (const double *)&self->number, (double *)tables};
+}
+
 void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,
                   double *state_dot)
 {
-    const flight_lanes one = {{self}, {phase}, (const double *)&phase->number};
+    const flight_lanes one = lane_of(self, phase);
     flight_rates_of(&one, &t, state, state_dot);
 }
 
-unsigned flight_watch(const flight_system *self, const flight_numbers *number,
-                      const flight_step *step)
+unsigned flight_watch(const flight_system *self, flight_phase *phase, const flight_step *step)
 {
-    const flight_lanes one = {{self}, {NULL}, (const double *)number};
+    const flight_lanes one = lane_of(self, phase);
     return flight_watch_of(&one, step);
 }
 
@@ -29,9 +43,41 @@ bool flight_pressure_turns(const flight_system *self, const flight_step *step,
     return pressure_turns(self->number.earth.rotation, step, density[0], density[1], pressure);
 }
 
+// Without turbulence.
+static v3 wind_here(const flight_system *self, double t, v3 r, double altitude)
+{
+    flight_tables tables;
+    const flight_lanes one = lane_without_phase(self, &tables);
+    real3 v = wind_of_lanes(&one, t, (real3){r.x, r.y, r.z}, altitude);
+    return (v3){v.x, v.y, v.z};
+}
+
+static m3 ground_axes(const flight_system *self, double t)
+{
+    return m3_mul(earth_turn(&self->earth, t), self->earth.A_EI); // A_CI
+}
+
+moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
+{
+    v3 v = v3_zero(), place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
+    double altitude = earth_altitude(&self->earth, place);
+    if (self->wind.present)
+        v = wind_here(self, t, place, altitude);
+    if (self->turbulence.present) {
+        turbulence_scales scales = turbulence_scales_at(
+            &self->turbulence, flight_height_over_ground(self, place, altitude));
+        double xi[2] = {-left / scales.L_u, -left / scales.L_w};
+        v = v3_add(v, flight_turbulence(self, t, place, altitude, xi, &scales));
+    }
+    air here = atmosphere_at(&self->atmosphere, altitude);
+    return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
+                        here.speed_of_sound};
+}
+
 flight_flow flight_flow_at(const flight_system *self, double t, const double *state)
 {
-    const flight_lanes one = {{self}, {NULL}, (const double *)&self->number};
+    flight_tables tables;
+    const flight_lanes one = lane_without_phase(self, &tables);
     flow here = flow_at(&one, t, real3_from(state + FLIGHT_R), real3_from(state + FLIGHT_V),
                         state + FLIGHT_XI);
     v3 r = v3_from(state + FLIGHT_R), v = {here.v.x, here.v.y, here.v.z};
@@ -47,12 +93,11 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
                        .along = along,
                        .angle_of_attack = atan2(across, along)};
     if (self->wind.present) {
-        v3 w = flight_wind(self, t, r, here.altitude);
+        v3 w = {here.wind.x, here.wind.y, here.wind.z};
         turbulence_scales scales;
         if (self->turbulence.present)
             w = v3_add(w, flight_turbulence(self, t, r, here.altitude, state + FLIGHT_XI, &scales));
-        m3 A_CI = m3_mul(earth_turn(&self->earth, t), self->earth.A_EI);
-        out.wind = m3_apply_transposed(A_CI, w);
+        out.wind = m3_apply_transposed(ground_axes(self, t), w);
     }
     return out;
 }
