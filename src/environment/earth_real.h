@@ -1,4 +1,4 @@
-// Gravity and altitude on a round Earth over reals (math/real.h).
+// Gravity, altitude and axes on a round Earth over reals (math/real.h).
 #ifndef LD_ENVIRONMENT_EARTH_REAL_H
 #define LD_ENVIRONMENT_EARTH_REAL_H
 
@@ -48,6 +48,19 @@ LD_INLINE real_latitude earth_latitude(const real_ellipsoid *of, real p, real z,
 LD_INLINE real earth_height_above(const real_ellipsoid *of, real p, real z, real_latitude at)
 {
     return p * at.cosine + z * at.sine - of->a * real_sqrt(1.0 - of->e2 * at.sine * at.sine);
+}
+
+// From axes north, up, east at the point r of E or C to those of r. At a pole the meridian is that
+// of longitude 0.
+LD_INLINE real3 earth_from_north(const real_ellipsoid *of, real3 r, real3 v)
+{
+    real p = real_sqrt(r.x * r.x + r.y * r.y);
+    real_latitude at = earth_latitude(of, p, r.z, 3);
+    real_condition pole = p == 0.0;
+    real east = 1.0 / real_select(pole, real_all(1), p);
+    real c = real_select(pole, real_all(1), r.x * east), s = r.y * east;
+    real out = at.cosine * v.y - at.sine * v.x; // away from the axis
+    return (real3){c * out - s * v.z, s * out + c * v.z, at.cosine * v.x + at.sine * v.y};
 }
 
 // Altitude [m] above the ellipsoid, or the sphere, of the point r of E or C.

@@ -1,8 +1,10 @@
 // Earth: gravitation as the gradient of its potential, geodetic places there and back, frames.
+#define LANES 1
 #include "model/model.h"
 #include "support/check.h"
 
 #include "environment/earth.h"
+#include "environment/earth_real.h"
 #include "support/draw.h"
 
 static const double degree = 0.017453292519943295;
@@ -93,6 +95,30 @@ static void test_geodetic(void **state)
     CHECK_NEAR("latitude of the pole", place.latitude, 90 * degree, 1e-16);
 }
 
+// Axes north, up, east without angles against those by latitude and longitude, also at the poles.
+static void test_from_north(void **state)
+{
+    (void)state;
+    const v3 wind = {5, -2, 3};
+    double worst = 0;
+    for (int kind = 0; kind < 2; kind++) {
+        earth self = earth_of(kind ? LD_EARTH_WGS84 : LD_EARTH_ROUND, 0, 0, 0);
+        const real_ellipsoid of = {self.a, self.b, self.e2};
+        for (double latitude = -90; latitude <= 90; latitude += 7.5)
+            for (double longitude = -180; longitude < 180; longitude += 50) {
+                v3 r = earth_place(&self, (geodetic){latitude * degree, longitude * degree, 12e3});
+                geodetic at = earth_geodetic(&self, r);
+                v3 expected = m3_apply(earth_local_axes(at.latitude, at.longitude), wind);
+                real3 found =
+                    earth_from_north(&of, (real3){r.x, r.y, r.z}, (real3){wind.x, wind.y, wind.z});
+                worst = fmax(worst, v3_norm(v3_sub((v3){found.x, found.y, found.z}, expected)));
+            }
+        real3 pole = earth_from_north(&of, (real3){0, 0, self.b}, (real3){5, -2, 3});
+        worst = fmax(worst, v3_norm((v3){pole.x + 5, pole.y - 3, pole.z + 2}));
+    }
+    CHECK_BELOW("wind from north, up and east [m/s]", worst, 3e-15);
+}
+
 // Axes of I: x at the azimuth, clockwise from north, y up, z to the right of x.
 static void test_frames(void **state)
 {
@@ -143,9 +169,8 @@ static void test_flat(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gravitation),
-        cmocka_unit_test(test_geodetic),
-        cmocka_unit_test(test_frames),
+        cmocka_unit_test(test_gravitation), cmocka_unit_test(test_geodetic),
+        cmocka_unit_test(test_from_north),  cmocka_unit_test(test_frames),
         cmocka_unit_test(test_flat),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -233,13 +233,6 @@ double flight_thrust(const flight_system *self, const flight_phase *phase, doubl
 
 // ---- the air
 
-v3 flight_from_north(const flight_system *self, double t, v3 r, v3 v)
-{
-    m3 A_CE = earth_turn(&self->earth, t);
-    geodetic place = earth_geodetic(&self->earth, m3_apply_transposed(A_CE, r));
-    return m3_apply(A_CE, m3_apply(earth_local_axes(place.latitude, place.longitude), v));
-}
-
 double flight_height_over_ground(const flight_system *self, v3 r, double altitude)
 {
     return (self->earth.flat ? r.y : altitude) - self->ground;

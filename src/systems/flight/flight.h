@@ -202,8 +202,6 @@ bool flight_pressure_turns(const flight_system *self, const flight_step *step,
 // Height of the point r of C over the ground, by which turbulence goes.
 double flight_height_over_ground(const flight_system *self, v3 r, double altitude);
 
-// The velocity v in axes north, up, east at the point r of C, on a round Earth, in C.
-v3 flight_from_north(const flight_system *self, double t, v3 r, v3 v);
 // Velocity of turbulence against the ground, in C, at the point r of C, with its scales, where the
 // distances flown through the air have come to xi.
 v3 flight_turbulence(const flight_system *self, double t, v3 r, double altitude, const double xi[2],

@@ -120,18 +120,11 @@ LD_INLINE real3 turn_wind(const flight_lanes *lanes, real3 v)
     return real33_apply(&A, v);
 }
 
-// From axes north, up, east at the points r of C to C.
-LD_INLINE real3 turn_from_north(const flight_lanes *lanes, real t, real3 r, real3 v)
+// From axes north, up, east at the points r of C to C; the Earth's turn does not change them.
+LD_INLINE real3 turn_from_north(const flight_lanes *lanes, real3 r, real3 v)
 {
-    for (int i = 0; i < LANES; i++) {
-        v3 out = flight_from_north(lanes->system[i], REAL_LANE(t, i),
-                                   (v3){REAL_LANE(r.x, i), REAL_LANE(r.y, i), REAL_LANE(r.z, i)},
-                                   (v3){REAL_LANE(v.x, i), REAL_LANE(v.y, i), REAL_LANE(v.z, i)});
-        REAL_LANE(v.x, i) = out.x;
-        REAL_LANE(v.y, i) = out.y;
-        REAL_LANE(v.z, i) = out.z;
-    }
-    return v;
+    const real_ellipsoid round = {OF(earth.a), OF(earth.b), OF(earth.e2)};
+    return earth_from_north(&round, r, v);
 }
 
 // Velocity of the air against the ground, without turbulence, at points r of C, in C.
@@ -146,7 +139,7 @@ LD_INLINE real3 wind_of_lanes(const flight_lanes *lanes, real t, real3 r, real a
     if (flat)
         return geographic ? turn_wind(lanes, v) : v;
     if (geographic)
-        return turn_from_north(lanes, t, r, v);
+        return turn_from_north(lanes, r, v);
     real s, c;
     real_sine_cosine(OF(earth.rotation) * t, &s, &c);
     v = turn_wind(lanes, v);
