@@ -15,7 +15,7 @@ extern "C" {
 #pragma GCC visibility push(default)
 
 /// A key, and how far it is changed to either side; a number with a unit as of --set. NULL: by
-/// 1e-5 of its value.
+/// 1e-4 of its value.
 typedef struct ld_derivative_key {
     const char *path; ///< of any number of the scenario but whole ones
     const char *step;

@@ -64,7 +64,7 @@ def sensitivity(scenario: Scenario, keys: Union[Sequence[str], Mapping[str, Any]
     """How the results of a launch change with keys, by central differences along its own steps.
 
     `keys` are paths, or paths with the step to either side, {"base.azimuth": "0.01 deg"}; None
-    stands for 1e-5 of the key's value. `results` are names in place of the usual ones.
+    stands for 1e-4 of the key's value. `results` are names in place of the usual ones.
     """
     steps = dict(keys) if isinstance(keys, Mapping) else dict.fromkeys(keys)
     asked = (ld_derivative_key * max(len(steps), 1))()

@@ -161,7 +161,7 @@ static const command commands[] = {
          "Prints derivatives of exit figures, instants and flight by keys: central differences "
          "of launches that take the steps of one, so that they differ as smoothly as the "
          "equations do. A star marks results for which the launch is not smooth. STEP is how "
-         "far a key is changed to either side, 1e-5 of its value unless given.",
+         "far a key is changed to either side, 1e-4 of its value unless given.",
      .examples = "launchdyn sensitivity scenario.yaml rocket.mass base.elevation|By two keys\n"
                  "launchdyn sensitivity scenario.yaml rocket.mass --what pitch_rate --json|One "
                  "result, as JSON",

@@ -17,9 +17,9 @@
 #include "run/simulation_build.h"
 #include "search/side_by_side.h"
 
-// A change of this share of a key: few contacts begin or end in so short a way, and rounding leaves
-// some 1e-8 of a derivative.
-static const double SHARE_CHANGED = 1e-5;
+// A change of this share of a key: curvature adds some 1e-8 to a derivative, rounding as much to
+// one that changes the result by so many per cent as the key.
+static const double SHARE_CHANGED = 1e-4;
 
 static ld_status no_memory(ld_error *error)
 {

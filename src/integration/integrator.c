@@ -374,23 +374,80 @@ static int evolve_step(integrator *self, double t_stop)
     return flag;
 }
 
+// Takes the last step again, to t. With a course it ends there, also where the library has found an
+// event a little earlier and interpolates.
+static int repeat_step(integrator *self, double t)
+{
+    self->t = self->t_previous;
+    copy(self->y_previous, self->y);
+    int flag = start(self, t - self->t);
+    if (flag >= 0)
+        flag = evolve_step(self, t);
+    if (flag == ARK_ROOT_RETURN && self->settings.course) {
+        copy(self->y_end, self->y);
+        self->t = self->t_end;
+        self->within = false;
+    }
+    return flag;
+}
+
+// Whether a step has ended where it had to: error control may have made it shorter.
+static bool has_reached(const integrator *self, int flag, double t)
+{
+    return flag == ARK_TSTOP_RETURN || flag == ARK_ROOT_RETURN || self->t >= t;
+}
+
+static double event_value(integrator *self, int event, double t, N_Vector y)
+{
+    self->t_g = NAN;
+    bool failed = self->settings.events(t, data(y), self->g, self->settings.self);
+    return failed ? NAN : self->g[event];
+}
+
+// The library has located an event in the interpolated step. With a course the step is repeated, by
+// secants, until it ends on the event itself: what remained would change from launch to launch.
+// *t_event: the end asked for. Returns the library's latest flag.
+static int land_closer(integrator *self, int flag, double t_end, double *t_event)
+{
+    enum { MOST = 5 };
+    const double landed = 2 * DBL_EPSILON * fabs(*t_event);
+    int event = 0;
+    while (event < self->settings.event_count && !self->found[event])
+        event++;
+    if (!self->settings.course || event == self->settings.event_count)
+        return flag;
+    double t = self->t_previous, g = event_value(self, event, t, self->y_previous);
+    for (int k = 0; k < MOST && flag >= 0 && self->t >= *t_event; k++) {
+        double now = event_value(self, event, self->t, self->y);
+        double next = self->t - now * (self->t - t) / (now - g);
+        if (!(fabs(next - self->t) > landed && next > self->t_previous && next < t_end))
+            break;
+        t = self->t;
+        g = now;
+        *t_event = next;
+        flag = repeat_step(self, next);
+    }
+    return flag;
+}
+
 // Takes the last step again so that it ends at the event, or where else it is requested, now at
 // self->t.
 static integrator_outcome land_on_event(integrator *self, ld_error *error)
 {
-    double t_event = self->t;
+    double t_event = self->t, t_end = self->t_previous + self->h;
     self->t = self->t_previous;
     self->anew = true;
-    copy(self->y_previous, self->y);
-    if (t_event <= self->t)
+    if (t_event <= self->t) {
+        copy(self->y_previous, self->y);
         return INTEGRATOR_EVENT;
-    int flag = start(self, t_event - self->t);
-    if (flag >= 0)
-        flag = evolve_step(self, t_event);
+    }
+    int flag = repeat_step(self, t_event);
+    if (flag >= 0 && has_reached(self, flag, t_event))
+        flag = land_closer(self, flag, t_end, &t_event);
     if (flag < 0)
         return fail(self, flag, error);
     // a step that error control made shorter ends before the event, which the next ones will find
-    self->anew = flag == ARK_TSTOP_RETURN || flag == ARK_ROOT_RETURN || self->t >= t_event;
+    self->anew = has_reached(self, flag, t_event);
     return self->anew ? INTEGRATOR_EVENT : INTEGRATOR_STEPPED;
 }
 

@@ -161,6 +161,8 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
             launch_restart_output(run, t);
     }
     changed |= launch_hold_stops(run, t, y, outcome == INTEGRATOR_EVENT);
+    if (outcome != INTEGRATOR_STEPPED)
+        launch_pass_corners(run, t, y, outcome == INTEGRATOR_EVENT);
     if (!status)
         status = launch_check_step(run, t, y);
     if (!status && (changed || outcome == INTEGRATOR_EVENT)) {
@@ -274,6 +276,7 @@ ld_status launch_begin(ld_run *run)
     }
     self->phase.locked = self->rocket->lock.present;
     launch_release_at_once(run, run->t_start, y);
+    launch_pass_corners(run, run->t_start, y, false);
     launch_measure_instant(run, run->t_start, y);
     launch_restart_output(run, run->t_start);
     run->next_progress = run->t_start;

@@ -66,18 +66,24 @@ static void let_go(ld_run *run, double t, const double *y)
     launch_record_event(run, LD_EVENT_RELEASE, t, -1);
 }
 
+// As the integrator reports it: 1, -1, or 0.
+static int wall_event(const ld_run *run, int i, int wall)
+{
+    int surfaces = run->launch.launcher.launching.surfaces.count;
+    return surfaces ? propagator_event(run->propagator, EVENT_SURFACE, i * surfaces + wall)
+                    : propagator_event(run->propagator, EVENT_TOUCH, i);
+}
+
 // A shoe's first touch of a surface, whose speed is kept for the whole contact.
 static bool touch_surfaces(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     const launching_system *launching = &self->launcher.launching;
-    int surfaces = launching->surfaces.count;
+    int surfaces = launching->adaptors.law.by_touch ? launching->surfaces.count : 0;
     bool touched = false;
     for (int i = launching->adaptors.count - 1; i >= 0; i--)
         for (int k = 0; k < surfaces; k++) {
-            int which = i * surfaces + k;
-            if (self->phase.passed[i] ||
-                propagator_event(run->propagator, EVENT_SURFACE, which) <= 0)
+            if (self->phase.passed[i] || wall_event(run, i, k) <= 0)
                 continue;
             double speed = launching_surface_rate(launching, y, i, k);
             self->phase.surface_speed[i][k] = touch_speed(self, speed);
@@ -108,12 +114,39 @@ bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event)
     return changed;
 }
 
+// Each wall as launch_hold_stops does. Near the station where it starts an adaptor stands still, or
+// may be moved beyond by a change of the scenario.
+void launch_pass_corners(ld_run *run, double t, const double *y, bool at_event)
+{
+    const double near = 1e-3; // of the tube's length
+    launch_state *self = &run->launch;
+    const launcher_output *out =
+        self->course && self->phase.rocket ? simulation_output(self, t, y) : NULL;
+    const launching_system *launching = &self->launcher.launching;
+    int walls = event_walls(self);
+    for (int i = 0; out && i < launching->adaptors.count; i++) {
+        adaptor_corner *corner = &self->corner[i];
+        double s = out->launching.adaptor[i].s;
+        bool passed = at_event && propagator_event(run->propagator, EVENT_STATION, i) < 0;
+        if (!corner->known)
+            corner->station = event_next_station(self, s + near * launching->tube.flexible.length);
+        else if (passed || s > corner->station)
+            corner->station = event_next_station(self, s);
+        corner->known = true;
+        for (int k = 0; k < walls; k++) {
+            int located = at_event ? wall_event(run, i, k) : 0;
+            double press = event_wall_press(self, i, k, &out->launching);
+            corner->touching[k] = located ? located : press > 0 ? 1 : -1;
+        }
+    }
+}
+
 // Switches what the events just located say; true where the equations changed.
 bool launch_switch_phase(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     int count = self->launcher.launching.adaptors.count;
-    bool changed = false;
+    bool changed = false, by_touch = self->launcher.launching.adaptors.law.by_touch;
     if (self->phase.locked && propagator_event(run->propagator, EVENT_RELEASE, 0) < 0) {
         let_go(run, t, y);
         changed = true;
@@ -123,7 +156,8 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
             pass_adaptor(run, i, t, y);
             changed = true;
         }
-        if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_TOUCH, i) > 0) {
+        if (by_touch && !self->phase.passed[i] &&
+            propagator_event(run->propagator, EVENT_TOUCH, i) > 0) {
             // first touch: its speed is kept for the whole contact
             self->phase.touch_speed[i] =
                 touch_speed(self, launching_offset_rate(&self->launcher.launching, y, i));

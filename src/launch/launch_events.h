@@ -8,6 +8,8 @@
 bool launch_switch_phase(ld_run *run, double t, const double *y);
 // The same of the stops of recoil slides, after each step; `at_event`: which ended at one.
 bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event);
+// The same of the corners of adaptors, of a launch with a course, at its start, events and stops.
+void launch_pass_corners(ld_run *run, double t, const double *y, bool at_event);
 // Opens a lock that carries more than its release force without a crossing to be located.
 void launch_release_at_once(ld_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].

@@ -7,11 +7,13 @@
 typedef enum event_kind {
     EVENT_RELEASE, // the lock carries its release force
     EVENT_EXIT,    // adaptor `index` passes the tip
-    EVENT_TOUCH,   // adaptor `index` touches the tube (law lankarani-nikravesh alone)
-    EVENT_SURFACE, // an adaptor touches a surface, index = adaptor * surfaces + surface (the same)
+    EVENT_TOUCH,   // adaptor `index` begins or ends to touch the tube (law lankarani-nikravesh, or
+                   // with a course)
+    EVENT_SURFACE, // an adaptor a surface, index = adaptor * surfaces + surface (the same)
     EVENT_BASE,    // number `index` of the base (integrated together alone)
     EVENT_BREECH,  // the rocket touches the breech (law lankarani-nikravesh alone)
     EVENT_STOP,    // a stop of a recoil slide begins or ends to push, index = 2 slide + stop
+    EVENT_STATION, // adaptor `index` passes into the tube's next element (with a course alone)
 } event_kind;
 
 typedef struct event {
@@ -20,7 +22,7 @@ typedef struct event {
 } event;
 
 enum {
-    EVENTS_MOST = 2 + LD_MAX_ADAPTORS * (1 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
+    EVENTS_MOST = 2 + LD_MAX_ADAPTORS * (2 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
                   LD_SLIDE_STOPS * LD_MAX_SUPPORTS
 };
 
@@ -34,6 +36,12 @@ typedef struct event_list {
 event_list events_of(const launch_state *self, bool base);
 // Where an event stands in the list; -1: it is none of them.
 int event_find(const event_list *self, event_kind kind, int index);
+// The walls that an adaptor can touch: the surfaces of a guide, or one bore.
+int event_walls(const launch_state *self);
+// How far adaptor `i` is pressed into one of them [m], as event_stop_press does.
+double event_wall_press(const launch_state *self, int i, int wall, const launching_output *out);
+// Where the element of the tube ends that x lies in [m]; infinity: the last one.
+double event_next_station(const launch_state *self, double x);
 // How far a stop of a recoil slide is pressed in [m]: positive where it pushes (stop_press), and
 // continues with what it does as far as that may be rounding.
 double event_stop_press(const launch_state *self, int index, const launching_output *out);

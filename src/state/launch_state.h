@@ -20,6 +20,15 @@ typedef struct run_conditions {
     base_rest rest;
 } run_conditions;
 
+// Where the forces on an adaptor have corners: at the wall, and at the ends of the tube's elements,
+// whose shapes meet there with a jump of curvature. Launches with a course end steps there, so that
+// their results stay as smooth as the equations are.
+typedef struct adaptor_corner {
+    bool known;
+    int touching[LD_MAX_SURFACES]; // of a bore the first: 1, -1
+    double station;                // [m] the end of the element that it is in; infinity: the last
+} adaptor_corner;
+
 typedef struct launch_state {
     const ld_simulation *system;
     const ld_model *model;    // the system's
@@ -46,8 +55,9 @@ typedef struct launch_state {
         double y[LD_MAX_STATES];
         launcher_output out;
     } latest;
-    step_course *course; // that its steps are kept in, or taken from; NULL: none
-    int64_t fallbacks;   // evaluations in which the overall form did not hold
+    step_course *course;                    // that its steps are kept in, or taken from; NULL: none
+    adaptor_corner corner[LD_MAX_ADAPTORS]; // with a course
+    int64_t fallbacks;                      // evaluations in which the overall form did not hold
     double worst_condition;
 } launch_state;
 
