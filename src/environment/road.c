@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "math/curves/spline.h"
 #include "math/functions.h"
+#include "math/lanes.h"
 #include "math/sine_cosine.h"
 
 static const double TWO_PI = 6.283185307179586476925286766559;
@@ -202,28 +203,22 @@ LD_ALWAYS_INLINE void add_harmonics(const road *self, road_track track, const do
     }
 }
 
-#if defined(__x86_64__)
 // The same code with the processor's wider instructions: the same bits.
-__attribute__((target("avx2"))) static void add_harmonics_wide(const road *self, road_track track,
-                                                               const double *turns, double x,
-                                                               int orders,
-                                                               double sum[ORDERS][BLOCK])
+LANES_AVX2 static void add_harmonics_wide(const road *self, road_track track, const double *turns,
+                                          double x, int orders, double sum[ORDERS][BLOCK])
 {
     add_harmonics(self, track, turns, x, orders, sum);
 }
-#endif
 
 // Height and its first three derivatives (orders = 4), or height alone (1), at x + j step.
 static void sum_block(const road *self, road_track track, const double *turns, double x, int orders,
                       double sum[ORDERS][BLOCK])
 {
     memset(sum, 0, (size_t)orders * sizeof *sum);
-#if defined(__x86_64__)
     if (self->wide_instructions) {
         add_harmonics_wide(self, track, turns, x, orders, sum);
         return;
     }
-#endif
     add_harmonics(self, track, turns, x, orders, sum);
 }
 
@@ -536,10 +531,7 @@ ld_status road_renew(road **renewed, const ld_road *model, double x0, double x1,
     }
     static const ld_road flat = {.iso_class = LD_ROAD_SMOOTH};
     self->model = model->form == LD_ROAD_FLAT ? &flat : model;
-#if defined(__x86_64__)
-    // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
-    self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
-#endif
+    self->wide_instructions = lanes_have_avx2();
     ld_status status = build(self, x0, x1, former, error);
     road_free(former);
     if (status) {

@@ -10,6 +10,7 @@
 #include "fmu/fmu_inside.h"
 #include "fmu/fmu_source.h"
 #include "fmu/package.h"
+#include "foreign/unpack.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
 #include "math/functions.h"
@@ -179,7 +180,7 @@ static void put_all(package *self, const void *data)
     const contents *from = data;
     char binary[IDENTIFIER_SIZE + 32];
     snprintf(binary, sizeof binary, "binaries/%s/%s.so",
-             from->version == 2 ? "linux64" : "x86_64-linux", from->identifier);
+             from->version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, from->identifier);
     package_put(self, "modelDescription.xml", from->description, from->description_length);
     package_put(self, binary, fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
     package_put(self, "resources/" FMU_SCENARIO_FILE, from->scenario, from->scenario_length);

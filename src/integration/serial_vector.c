@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "math/vec3.h"
+#include "math/lanes.h"
 
 static double *data(N_Vector v)
 {
@@ -169,14 +169,11 @@ static int vector_linear_combination(int count, double *c, N_Vector *x, N_Vector
     return combine_counted(count, c, x, z);
 }
 
-#if defined(__x86_64__)
 // The same code with the processor's wider instructions: the same bits.
-__attribute__((target("avx2"))) static int vector_linear_combination_wide(int count, double *c,
-                                                                          N_Vector *x, N_Vector z)
+LANES_AVX2 static int vector_linear_combination_wide(int count, double *c, N_Vector *x, N_Vector z)
 {
     return combine_counted(count, c, x, z);
 }
-#endif
 
 // ---- a set of vectors
 
@@ -233,11 +230,8 @@ static void set_operations(N_Vector_Ops ops)
     ops->nvmaxnorm = vector_max_norm;
     ops->nvwrmsnorm = vector_wrms_norm;
     ops->nvlinearcombination = vector_linear_combination;
-#if defined(__x86_64__)
-    // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
-    if (__builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN"))
+    if (lanes_have_avx2())
         ops->nvlinearcombination = vector_linear_combination_wide;
-#endif
 }
 
 serial_vectors *serial_vectors_new(size_t n, SUNContext context)

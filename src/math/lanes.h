@@ -3,6 +3,9 @@
 #ifndef LD_MATH_LANES_H
 #define LD_MATH_LANES_H
 
+#include <stdbool.h>
+#include <stdlib.h>
+
 #include "math/vec3.h"
 
 typedef double v4d __attribute__((vector_size(32), may_alias));
@@ -40,6 +43,23 @@ LD_ALWAYS_INLINE double v4d_sum(v4d a)
 {
     return (a[0] + a[2]) + (a[1] + a[3]);
 }
+/// Of a function that is compiled a second time for AVX2, with the same bits.
+#if defined(__x86_64__)
+#define LANES_AVX2 __attribute__((target("avx2")))
+#else
+#define LANES_AVX2
+#endif
+/// True where code compiled for AVX2 runs. LAUNCHDYN_PLAIN=1 does without (valgrind does not know
+/// all of it).
+LD_INLINE bool lanes_have_avx2(void)
+{
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
+#else
+    return false;
+#endif
+}
+
 /// Promises the compiler that there is at least one lane.
 #define LANES_NOT_EMPTY(count)                                                                     \
     do {                                                                                           \

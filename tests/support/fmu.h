@@ -7,6 +7,7 @@
 
 #include <minizip/unzip.h>
 
+#include "foreign/unpack.h"
 #include "support/shell.h"
 
 enum { FMU_TEXT_SIZE = 1 << 20, FMU_FOLDER_SIZE = 128 };
@@ -81,7 +82,7 @@ static inline unpacked_fmu fmu_unpack(const char *packed, int version)
     attribute_after(self.description, "modelIdentifier", identifier, sizeof identifier);
 
     snprintf(file, sizeof file, "%s/binaries/%s/%s.so", self.folder,
-             version == 2 ? "linux64" : "x86_64-linux", identifier);
+             version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, identifier);
     self.binary = dlopen(file, RTLD_NOW | RTLD_LOCAL);
     if (!self.binary)
         fail_msg("%s", dlerror());

@@ -10,6 +10,7 @@
 
 #include <minizip/zip.h>
 
+#include "foreign/unpack.h"
 #include "support/check.h"
 
 // Adds an entry; `mode` is the file's, as Unix has it, 0: none.
@@ -50,8 +51,8 @@ static inline void pack_fmu(const char *path, int version, const char *identifie
     zipFile zip = zipOpen64(path, APPEND_STATUS_CREATE);
     assert_non_null(zip);
     pack_entry(zip, "modelDescription.xml", description, strlen(description), 0);
-    snprintf(name, sizeof name, "binaries/%s/%s.so", version == 2 ? "linux64" : "x86_64-linux",
-             identifier);
+    snprintf(name, sizeof name, "binaries/%s/%s.so",
+             version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, identifier);
     char *bytes = read_whole(binary, &size);
     pack_entry(zip, name, bytes, size, 0100755);
     free(bytes);

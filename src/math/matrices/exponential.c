@@ -66,24 +66,19 @@ LD_ALWAYS_INLINE void multiply_any(int n, int rows, const double *A, const doubl
     }
 }
 
-#if defined(__x86_64__)
 // The same code with the processor's wider instructions: the same bits.
-__attribute__((target("avx2"))) static void multiply_wide(int n, int rows, const double *A,
-                                                          const double *x, double *y)
+LANES_AVX2 static void multiply_wide(int n, int rows, const double *A, const double *x, double *y)
 {
     multiply_any(n, rows, A, x, y);
 }
-#endif
 
 static void multiply(const exponential *self, const block *of, const double *A, const double *x,
                      double *y)
 {
-#if defined(__x86_64__)
     if (self->wide_instructions) {
         multiply_wide(of->n, of->rows, A, x, y);
         return;
     }
-#endif
     multiply_any(of->n, of->rows, A, x, y);
 }
 
@@ -188,10 +183,7 @@ exponential *exponential_new(const exponential_settings *settings)
         return NULL;
     self->settings = *settings;
     self->block_count = settings->block_count;
-#if defined(__x86_64__)
-    self->wide_instructions =
-        __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN"); // valgrind has not all
-#endif
+    self->wide_instructions = lanes_have_avx2();
     self->blocks = calloc((size_t)self->block_count + 1, sizeof *self->blocks);
     self->place = calloc((size_t)settings->n + 1, sizeof *self->place);
     if (self->blocks && self->place) {

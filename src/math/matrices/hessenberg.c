@@ -14,11 +14,7 @@ int hessenberg_make(hessenberg *self, int n)
     self->H = malloc((5 * square + row) * sizeof *self->H);
     if (!self->H)
         return 1;
-#ifdef LD_HAVE_AVX
-    self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
-#else
-    self->wide_instructions = false;
-#endif
+    self->wide_instructions = lanes_have_avx2();
     self->X = self->H + square;
     self->inverse = self->X + square;
     self->rows = self->inverse + square;
@@ -185,20 +181,15 @@ LD_ALWAYS_INLINE int solve(const hessenberg *self, double omega, int count, doub
     return bad;
 }
 
-#if defined(__x86_64__)
 // The same code with the processor's wider instructions: the same bits.
-__attribute__((target("avx2"))) static int solve_wide(const hessenberg *self, double omega,
-                                                      int count, double *z)
+LANES_AVX2 static int solve_wide(const hessenberg *self, double omega, int count, double *z)
 {
     return solve(self, omega, count, z);
 }
-#endif
 
 int hessenberg_solve(const hessenberg *self, double omega, int count, double *z)
 {
-#if defined(__x86_64__)
     if (self->wide_instructions)
         return solve_wide(self, omega, count, z);
-#endif
     return solve(self, omega, count, z);
 }

@@ -7,6 +7,7 @@
 #include "elements/tail.h"
 #include "elements/tube/shortening.h"
 #include "elements/tube/tube_dynamics.h"
+#include "math/lanes.h"
 #include "model/fields/field.h"
 #include "model/parts.h"
 #include "model/salvo.h"
@@ -155,10 +156,7 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
         return status;
     }
     launching_set_rocket(self, salvo_rocket(model, 0));
-#if defined(__x86_64__)
-    // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
-    self->wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
-#endif
+    self->wide_instructions = lanes_have_avx2();
     return LD_OK;
 }
 
