@@ -72,7 +72,7 @@ class TestLibrary(Case):
                       "build it first: cmake -S ", ran.stderr)
         library.write_bytes(b"the library")
         subprocess.run(build, cwd=self.folder / "python", check=True, capture_output=True)
-        tag = sysconfig.get_platform().replace("-", "_")
+        tag = "-py3-none-" + sysconfig.get_platform().replace("-", "_")
         wheel, = (self.folder / "out").glob("*.whl")
         self.assertTrue(wheel.name.endswith(f"{tag}.whl"), wheel.name)
         with zipfile.ZipFile(wheel) as package:
