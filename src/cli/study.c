@@ -123,15 +123,21 @@ static char **with_plan(char **sets, ld_index index)
     return all;
 }
 
+ld_status study_read_planned(const char *file, char **sets, ld_index index, ld_study **study)
+{
+    char **planned = index ? with_plan(sets, index) : NULL;
+    if (index && !planned)
+        return LD_ERR_MEMORY;
+    ld_status status = command_read_study(file, index ? planned : sets, study);
+    free(planned);
+    return status;
+}
+
 static int study_file(const char *file, study_wishes *wishes)
 {
     ld_study *study = NULL;
-    const ld_index index = (ld_index)wishes->view.index;
-    char **planned = index ? with_plan(wishes->run.sets, index) : NULL;
-    if (index && !planned)
-        return command_code(LD_ERR_MEMORY);
-    ld_status status = command_read_study(file, index ? planned : wishes->run.sets, &study);
-    free(planned);
+    ld_status status =
+        study_read_planned(file, wishes->run.sets, (ld_index)wishes->view.index, &study);
     return status ? command_code(status) : study_do(study, wishes);
 }
 
@@ -310,8 +316,7 @@ static const char *wrong_to_run(const char *file, const char *again, const study
     return NULL;
 }
 
-// Of "total", "first", "morris"; all others the usual.
-static ld_index index_of(const char *word)
+ld_index study_index_of(const char *word)
 {
     static const char *const words[] = {"", "total", "first", "morris"};
     int index = word ? LD_INDEX_MORRIS : LD_INDEX_USUAL;
@@ -391,7 +396,7 @@ int command_study(const command *self, int argc, char **argv)
         command_tell_renamed(what);
         wishes.view = (ld_study_view){.what = what,
                                       .sensitivity = sensitivity != NULL,
-                                      .index = (unsigned char)index_of(sensitivity),
+                                      .index = (unsigned char)study_index_of(sensitivity),
                                       .json = json,
                                       .measured = measured,
                                       .against = against,

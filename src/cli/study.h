@@ -33,6 +33,11 @@ typedef struct study_wishes {
          "DIR"},                                                                                   \
         COMMAND_STRICT(&(wishes)->run.strict)
 
+// The index that a word of --sensitivity names: total, first, morris; NULL and others: the usual.
+ld_index study_index_of(const char *word);
+// Reads a file by `sets`, with the plan for an index but the usual, and frees what it makes for it.
+ld_status study_read_planned(const char *file, char **sets, ld_index index, ld_study **study);
+
 // Prints warnings on all points of the study (command_take_notes()).
 int study_take_notes(const ld_study *study, const study_wishes *wishes);
 

@@ -146,7 +146,9 @@ static ld_status launch_itself(job *self, ld_error *error)
     if (status)
         return status;
     step_course_follow(&self->course);
-    return launch_beside(self, &self->worker[0], 0, &self->course, error);
+    status = launch_beside(self, &self->worker[0], 0, &self->course, error);
+    self->done = !status;
+    return status;
 }
 
 static bool run_task(void *user, int worker, int task)
@@ -160,7 +162,7 @@ static bool run_task(void *user, int worker, int task)
         self->status = status;
         *self->error = error;
     }
-    self->done++;
+    self->done += !status;
     if (self->options->progress)
         self->options->progress(self->options->self, self->done, self->launches);
     pthread_mutex_unlock(&self->at_work);
@@ -192,7 +194,6 @@ static ld_status run_all(ld_derivatives *all, const ld_derivative_options *optio
                 .options = options,
                 .launches = 1 + beside,
                 .threads = asked < beside ? asked : beside,
-                .done = 1,
                 .error = error,
                 .at_work = PTHREAD_MUTEX_INITIALIZER};
     const side_by_side work = {
@@ -204,7 +205,11 @@ static ld_status run_all(ld_derivatives *all, const ld_derivative_options *optio
         status = side_by_side_run(&work, error);
     free_workers(&self);
     step_course_free(&self.course);
-    return status ? status : self.status;
+    status = status ? status : self.status;
+    return status == LD_ERR_INTERRUPTED
+               ? ld_fail(error, status, "interrupted after %d of %d launches", self.done,
+                         self.launches)
+               : status;
 }
 
 // ---- from begin to end

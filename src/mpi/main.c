@@ -60,12 +60,14 @@ static uint64_t identity(const ld_study *study)
 }
 
 // Reads the scenario in every process. What the first one finds wrong it says itself.
-static int read_everywhere(const char *file, char **sets, int process, ld_study **study)
+static int read_everywhere(const char *file, const study_wishes *wishes, int process,
+                           ld_study **study)
 {
     int processes;
     MPI_Comm_size(MPI_COMM_WORLD, &processes);
     *study = NULL;
-    ld_status status = command_read_study(file, sets, study);
+    ld_status status =
+        study_read_planned(file, wishes->run.sets, (ld_index)wishes->view.index, study);
     int failed = lowest(status ? process : processes);
     if (failed < processes) {
         if (failed > 0)
@@ -99,11 +101,15 @@ static int follow_study(const ld_study *study)
 static int run_study(const char *file, const study_wishes *wishes, int process)
 {
     ld_study *study;
+    if (wishes->view.sensitivity && wishes->view.index == LD_INDEX_USUAL) {
+        command_complain("--sensitivity requires total, first or morris");
+        return EXIT_INPUT;
+    }
     if (!wishes->run.folder) {
         command_complain("study requires --out DIR, the folder of the study");
         return EXIT_INPUT;
     }
-    int code = read_everywhere(file, wishes->run.sets, process, &study);
+    int code = read_everywhere(file, wishes, process, &study);
     if (!code)
         code = study_take_notes(study, wishes);
     if (!code)
@@ -111,6 +117,17 @@ static int run_study(const char *file, const study_wishes *wishes, int process)
     ld_study_free(study);
     return code;
 }
+
+#define MPI_OPTIONS(wishes, word)                                                                  \
+    STUDY_OPTIONS(wishes),                                                                         \
+        {"sensitivity",                                                                            \
+         '\0',                                                                                     \
+         OPTION_WORD,                                                                              \
+         word,                                                                                     \
+         "Run with the plan for these sensitivities: total and first-order Sobol indices, or "     \
+         "Morris's elementary effects",                                                            \
+         "total|first|morris"},                                                                    \
+        COMMAND_USUAL
 
 // Whether help alone is asked for, which requires no MPI: study --help, --help, or help --man,
 // which prints the manual page.
@@ -124,7 +141,8 @@ static bool asks_for_help(int argc, char **argv)
 static int print_help(int argc, char **argv)
 {
     study_wishes wishes = {0};
-    const command_option options[] = {STUDY_OPTIONS(&wishes), COMMAND_USUAL};
+    char *word = NULL;
+    const command_option options[] = {MPI_OPTIONS(&wishes, &word)};
     if (argc > 2 && strcmp(argv[2], "--man") == 0)
         help_choose(page_print);
     help_print(&study_command, options);
@@ -134,7 +152,8 @@ static int print_help(int argc, char **argv)
 static int run_command(int argc, char **argv, int process)
 {
     study_wishes wishes = {0};
-    const command_option options[] = {STUDY_OPTIONS(&wishes), COMMAND_USUAL};
+    char *word = NULL;
+    const command_option options[] = {MPI_OPTIONS(&wishes, &word)};
     command_line line;
     int code = EXIT_INPUT;
     if (argc < 2 || strcmp(argv[1], "study") != 0) {
@@ -142,6 +161,8 @@ static int run_command(int argc, char **argv, int process)
         return EXIT_INPUT;
     }
     if (command_line_read(&line, &study_command, argc - 1, argv + 1, options, &code)) {
+        wishes.view.sensitivity = word != NULL;
+        wishes.view.index = (unsigned char)study_index_of(word);
         code = run_study(line.word[0], &wishes, process);
         options_end(&line);
     }

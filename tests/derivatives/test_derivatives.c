@@ -307,6 +307,34 @@ static void threads_change_no_bit(void **state)
     ld_model_free(model);
 }
 
+static void count_launches(void *user, int launches, int of)
+{
+    int *counted = user;
+    assert_int_equal(of, 5);
+    *counted = launches;
+}
+
+static bool fewer_than_three(void *user)
+{
+    return *(int *)user < 3;
+}
+
+static void interruption_says_after_what(void **state)
+{
+    (void)state;
+    int counted = 0;
+    const ld_derivative_options options = {
+        .self = &counted, .progress = count_launches, .go_on = fewer_than_three};
+    static const ld_derivative_key keys[] = {{"rocket.mass", NULL}, {"base.elevation", NULL}};
+    ld_model *model = read_example("fixed.yaml", NULL, 0);
+    ld_derivatives *of;
+    ld_error error;
+    assert_int_equal(ld_derivatives_find(model, keys, 2, &options, &of, &error),
+                     LD_ERR_INTERRUPTED);
+    assert_string_equal(error.text, "interrupted after 3 of 5 launches");
+    ld_model_free(model);
+}
+
 static void refusals(void **state)
 {
     (void)state;
@@ -351,6 +379,7 @@ int main(void)
                                        cmocka_unit_test(on_the_march),
                                        cmocka_unit_test(other_events_are_told),
                                        cmocka_unit_test(threads_change_no_bit),
+                                       cmocka_unit_test(interruption_says_after_what),
                                        cmocka_unit_test(refusals)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
