@@ -2,6 +2,7 @@
 #include "environment/atmosphere.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "environment/atmosphere_real.h"
 #include "math/functions.h"
@@ -112,22 +113,54 @@ static ld_status build_profile(atmosphere *self, const ld_table *given, ld_error
     return status;
 }
 
+static ld_status keep_given(atmosphere *self, const ld_table *given, ld_error *error)
+{
+    size_t size = given->rows * given->columns * sizeof *given->data;
+    double *data = malloc(size);
+    if (!data)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for %zu rows of air", given->rows);
+    memcpy(data, given->data, size);
+    self->given = (ld_table){.rows = given->rows, .columns = given->columns, .data = data};
+    return LD_OK;
+}
+
+static bool is_given(const atmosphere *self, const ld_table *table)
+{
+    const ld_table *given = &self->given;
+    return given->data && given->rows == table->rows && given->columns == table->columns &&
+           memcmp(given->data, table->data, table->rows * table->columns * sizeof(double)) == 0;
+}
+
 ld_status atmosphere_build(atmosphere *self, const ld_atmosphere *model, ld_error *error)
 {
+    *self = (atmosphere){0};
+    return atmosphere_renew(self, model, error);
+}
+
+ld_status atmosphere_renew(atmosphere *self, const ld_atmosphere *model, ld_error *error)
+{
+    bool keeps = model->kind == LD_ATMOSPHERE_PROFILE && is_given(self, &model->profile);
+    if (!keeps)
+        atmosphere_free(self);
     *self = (atmosphere){.kind = model->kind,
                          .density = model->density,
                          .speed_of_sound = model->speed_of_sound,
                          .density_scale = model->density_scale,
-                         .temperature_offset = model->temperature_offset};
+                         .temperature_offset = model->temperature_offset,
+                         .profile = self->profile,
+                         .given = self->given};
     build_layers(self);
-    if (self->kind == LD_ATMOSPHERE_PROFILE)
-        return build_profile(self, &model->profile, error);
-    return LD_OK;
+    if (keeps || self->kind != LD_ATMOSPHERE_PROFILE)
+        return LD_OK;
+    ld_status status = build_profile(self, &model->profile, error);
+    return status ? status : keep_given(self, &model->profile, error);
 }
 
 void atmosphere_free(atmosphere *self)
 {
     curves_free(&self->profile);
+    free(self->given.data);
+    self->given = (ld_table){0};
 }
 
 void atmosphere_state(const atmosphere *self, double altitude, double *temperature,

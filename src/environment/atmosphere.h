@@ -13,6 +13,7 @@ typedef struct atmosphere {
     atmosphere_layer layer[ATMOSPHERE_LAYERS];
     curves profile; // measured: logarithm of the pressure [Pa] and virtual temperature [K] over the
                     // altitude [m]
+    ld_table given; // that it is of, owned
 } atmosphere;
 
 typedef struct air {
@@ -21,6 +22,8 @@ typedef struct air {
 } air;
 
 ld_status atmosphere_build(atmosphere *self, const ld_atmosphere *model, ld_error *error);
+// The same of one that was built, or is all 0: an equal profile is kept.
+ld_status atmosphere_renew(atmosphere *self, const ld_atmosphere *model, ld_error *error);
 void atmosphere_free(atmosphere *self);
 
 // Air at a geometric altitude [m]. us1976: perfect gas in hydrostatic layers of constant lapse rate

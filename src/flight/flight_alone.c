@@ -30,7 +30,7 @@ static ld_status write_row(void *user, const flight_phase *phase, double t, cons
 
 ld_status flight_alone_create(ld_simulation *self, ld_error *error)
 {
-    ld_status status = flight_build(&self->flight, self->model, 0, error);
+    ld_status status = flight_renew(&self->flight, self->model, 0, error);
     return status ? status : flight_columns(&self->flight, &self->columns, error);
 }
 

@@ -110,13 +110,13 @@ static void end_lane(lane_group *self, int i, ld_status status)
     self->source->done(self->source->self, i, &one->flight, status);
 }
 
-static void watch_lane(lane_group *self, int i)
+static void watch_lane(lane_group *self, int i, bool seen)
 {
     flight_run *run = &self->lane[i].run;
     get_column(self->step, self, i, &run->steps.step, DORMAND_PRINCE_NUMBERS);
     get_column(self->extremes, self, i, &run->extremes, FLIGHT_EXTREMES);
     run->steps.open = false;
-    ld_status status = flight_run_examine(run);
+    ld_status status = flight_run_examine(run, seen);
     if (status || !flight_run_continues(run))
         end_lane(self, i, status);
     else
@@ -191,9 +191,9 @@ static void try_steps(lane_group *self, int flying)
         double outcome = OF_STEP(self, i, outcome);
         bool due = OF_STEP(self, i, steps) >= self->lane[i].run.next_check ||
                    OF_STEP(self, i, t) == OF_STEP(self, i, t_stop);
-        bool done = outcome == DORMAND_PRINCE_DONE && (due || (seen >> i & 1));
+        bool look = seen >> i & 1, done = outcome == DORMAND_PRINCE_DONE && (due || look);
         if (self->lane[i].flies && (done || outcome == DORMAND_PRINCE_LOST))
-            watch_lane(self, i);
+            watch_lane(self, i, look);
     }
 }
 

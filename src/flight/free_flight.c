@@ -500,9 +500,14 @@ static double trigger_in_step(flight_run *run, int i, double apex)
         return NAN;
     if (one->trigger == LD_TRIGGER_APOGEE)
         return apex;
-    double from = isnan(apex) ? step->t0 : apex, level = height_of_trigger(run, i);
-    double y[DORMAND_PRINCE_STATES];
-    dormand_prince_between(&run->steps, from, y);
+    double from = step->t0, level = height_of_trigger(run, i);
+    double between[DORMAND_PRINCE_STATES];
+    const double *y = step->y0;
+    if (!isnan(apex)) {
+        from = apex;
+        y = between;
+        dormand_prince_between(&run->steps, apex, between);
+    }
     // what is so little below it may be an end that was cut short
     if (flight_height(system, y) < level - 1e-6)
         return apex;
@@ -723,9 +728,41 @@ static void set_next(flight_run *run)
     run->steps.step.t_stop = next_stop(run);
 }
 
-ld_status flight_run_examine(flight_run *run)
+// Begins the next step where the last one has stopped, past what changes the equations there.
+static void pass_stop(flight_run *run)
 {
     dormand_prince *steps = &run->steps;
+    if (!pass_events(run, steps->step.t, steps->step.y))
+        return;
+    dormand_prince_start(steps, steps->step.t, steps->step.y);
+    watch_acceleration(run); // beyond the corner, too
+}
+
+// Whether the last step, of which flight_watch has said nothing, ended at a corner of thrust,
+// masses, wind or brakes, and nothing else is asked of it.
+static bool is_plain_stop(const flight_run *run)
+{
+    const dormand_prince_numbers *step = &run->steps.step;
+    double t = step->t;
+    return step->outcome == DORMAND_PRINCE_DONE && t == step->t_stop && !run->job->row &&
+           run->job->measure->count == 0 && t < next_opening(run) && t < run->t_limit &&
+           t < run->job->t_end;
+}
+
+ld_status flight_run_examine(flight_run *run, bool seen)
+{
+    dormand_prince *steps = &run->steps;
+    if (!seen && is_plain_stop(run)) {
+        take_height(run, steps->step.t, steps->step.y);
+        ld_status status = report_progress(run, steps->step.t, steps->step.y);
+        if (!status)
+            status = check_steps(run);
+        if (status)
+            return status;
+        pass_stop(run);
+        set_next(run);
+        return LD_OK;
+    }
     if (steps->step.outcome == DORMAND_PRINCE_LOST)
         return ld_fail(run->error, LD_ERR_NUMERIC,
                        "the equations of flight gave no finite result, or the step size fell to 0, "
@@ -738,10 +775,8 @@ ld_status flight_run_examine(flight_run *run)
         status = check_steps(run);
     if (status)
         return status;
-    if (stopped && !run->landed && pass_events(run, steps->step.t, steps->step.y)) {
-        dormand_prince_start(steps, steps->step.t, steps->step.y);
-        watch_acceleration(run); // beyond the corner, too
-    }
+    if (stopped && !run->landed)
+        pass_stop(run);
     if (stopped || run->landed)
         measure_now(run, steps->step.t, steps->step.y);
     set_next(run);
@@ -756,7 +791,7 @@ ld_status flight_run_step(flight_run *run)
     bool seen = flight_watch(run->job->system, &run->phase, &ends);
     bool due = step->steps >= run->next_check || step->t == step->t_stop ||
                step->outcome == DORMAND_PRINCE_LOST;
-    return seen || due ? flight_run_examine(run) : LD_OK;
+    return seen || due ? flight_run_examine(run, seen) : LD_OK;
 }
 
 static ld_status begin(flight_run *run, const double *y)

@@ -77,8 +77,8 @@ ld_status flight_run_step(flight_run *self);
 
 // After a step of `steps`, or where there was none available: what happened in it. It must be asked
 // where the step ended at its stop, or flight_watch says so, or so many steps as `next_check` are
-// done.
-ld_status flight_run_examine(flight_run *self);
+// done. seen: flight_watch has said so.
+ld_status flight_run_examine(flight_run *self, bool seen);
 
 // Fills what free_flight_run fills; the state at the end.
 void flight_run_end(flight_run *self, ld_status status, double *state);

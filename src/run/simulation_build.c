@@ -64,7 +64,6 @@ static ld_status renew_flight(ld_simulation *self, const ld_model *model, ld_err
 {
     if (self->flight.rocket) {
         // after another flight alone there is no launcher to be cleared
-        flight_free(&self->flight);
         quantity_columns_free(&self->columns);
     } else {
         simulation_clear(self);

@@ -76,6 +76,36 @@ static void test_same_bits(void **state)
     model_clear(&flight);
 }
 
+// A flight's measured air stays where its rows do.
+static void test_measured_air(void **state)
+{
+    (void)state;
+    ld_simulation *simulation = NULL;
+    ld_model model;
+    ld_messages messages = {0};
+    static const char *const set[] = {
+        "environment.atmosphere={profile: [[0 m, 100 kPa, 290 K], [2 km, 78.5 kPa, 280 K]]}"};
+    assert_int_equal(
+        scenario_read(LD_SOURCE_DIR "/examples/flight.yaml", set, 1, &model, &messages), LD_OK);
+    ld_atmosphere *given = &model.environment.atmosphere;
+    check_same(&simulation, &model);
+    const double *kept = simulation->flight.atmosphere.profile.x;
+    given->density_scale = 0.97;
+    given->temperature_offset = 3;
+    check_same(&simulation, &model);
+    assert_ptr_equal(simulation->flight.atmosphere.profile.x, kept);
+    given->profile.data[given->profile.columns + 1] *= 1.01;
+    check_same(&simulation, &model);
+    given->profile.rows = 1;
+    check_same(&simulation, &model);
+    given->kind = LD_ATMOSPHERE_US1976;
+    check_same(&simulation, &model);
+    given->kind = LD_ATMOSPHERE_PROFILE;
+    check_same(&simulation, &model);
+    ld_simulation_free(simulation);
+    model_clear(&model);
+}
+
 // On the march: the road's table stays where nothing of the road or of the way over it differs.
 static void test_marching(void **state)
 {
@@ -125,6 +155,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_bits),
+        cmocka_unit_test(test_measured_air),
         cmocka_unit_test(test_marching),
         cmocka_unit_test(test_after_failure),
     };

@@ -75,10 +75,20 @@ static flight_numbers numbers_of(const flight_system *self)
 
 ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error)
 {
+    *self = (flight_system){0};
+    return flight_renew(self, model, rocket, error);
+}
+
+ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, ld_error *error)
+{
+    atmosphere kept = self->atmosphere;
+    self->atmosphere = (atmosphere){0};
+    flight_free(self);
     const ld_rocket *flying = salvo_rocket(model, rocket);
     const ld_motor *thrust = &flying->motor;
     const ld_environment *environment = model_environment(model);
     *self = (flight_system){.rocket = flying,
+                            .atmosphere = kept,
                             .thrust_point = v3_from(thrust->at),
                             .jet_damping = thrust->jet_damping == LD_JET_DAMPING_YES,
                             .parachutes = flying->parachute_count > 0,
@@ -87,7 +97,7 @@ ld_status flight_build(flight_system *self, const ld_model *model, int rocket, l
     earth_build(&self->earth, model);
     v3 direction = {1, thrust->misalignment[0], thrust->misalignment[1]};
     self->thrust_direction = v3_scale(1 / v3_norm(direction), direction);
-    ld_status status = atmosphere_build(&self->atmosphere, &environment->atmosphere, error);
+    ld_status status = atmosphere_renew(&self->atmosphere, &environment->atmosphere, error);
     if (!status)
         status = wind_build(&self->wind, &environment->wind, error);
     if (!status)

@@ -104,6 +104,8 @@ typedef struct flight_system {
 
 // Of the rocket with this place in the firing sequence, from 0, which decides its turbulence.
 ld_status flight_build(flight_system *self, const ld_model *model, int rocket, ld_error *error);
+// The same of one that was built, or is all 0: an equal profile of the air is kept.
+ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, ld_error *error);
 void flight_free(flight_system *self);
 
 // The intervals of the tables that a flight was in last.

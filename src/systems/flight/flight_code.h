@@ -473,7 +473,10 @@ LD_INLINE real_condition turns_or_lands(const flight_lanes *lanes, const flight_
     real height = altitude - 1e-3;
     if (flat)
         height = y[FLIGHT_R + 1];
-    return ((rise0 > -margin0) & (rise < margin)) | (height <= OF(earth.watched));
+    // what rises at both ends passes such a height on its way up
+    real_condition rises = (rise0 > margin0) & (rise > margin);
+    return ((rise0 > -margin0) & (rise < margin)) |
+           ((height <= OF(earth.watched)) & real_not(rises));
 }
 
 LD_INLINE unsigned flight_watch_of(const flight_lanes *lanes, const flight_step *step)
