@@ -102,6 +102,27 @@ static void test_nets(void **state)
     }
 }
 
+// Owen's scrambling: what two coordinates have in common up to a bit they keep, as they keep that
+// this bit differs; whether the bits behind it are turned is drawn anew for each.
+static void test_scrambling(void **state)
+{
+    (void)state;
+    enum { BITS = 16, DRAWS = 4096, FIRST_BIT = 3 };
+    const uint64_t key[] = {11, 4};
+    const uint32_t a = 0x5a5a0000u, b = a ^ 1u << (31 - FIRST_BIT);
+    double apart = 0;
+    for (uint64_t draw = 0; draw < DRAWS; draw++) {
+        uint32_t differ =
+            sobol_scrambled(a, BITS, key, draw, 0) ^ sobol_scrambled(b, BITS, key, draw, 0);
+        assert_int_equal(differ >> (BITS - 1 - FIRST_BIT), 1);
+        for (int k = 0; k < BITS - 1 - FIRST_BIT; k++)
+            apart += differ >> k & 1;
+    }
+    double bits = (double)DRAWS * (BITS - 1 - FIRST_BIT);
+    CHECK_BELOW("bits behind that differ, of a half, in deviations",
+                (apart / bits - 0.5) / 0.5 * sqrt(bits), 3);
+}
+
 // ---- convergence
 
 enum { SCRAMBLINGS = 400, LEAST = 6, MOST = 10 };
@@ -156,9 +177,8 @@ static void test_convergence(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_first_points),
-        cmocka_unit_test(test_nets),
+        cmocka_unit_test(test_numbers),     cmocka_unit_test(test_first_points),
+        cmocka_unit_test(test_nets),        cmocka_unit_test(test_scrambling),
         cmocka_unit_test(test_convergence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
