@@ -78,7 +78,7 @@ class Replay {
       if (this.stage.seen) this.redraw();
     }).observe(this.canvas);
     this.tools.onColours(() => this.paint());
-    addEventListener("beforeprint", () => this.photograph());
+    addEventListener("beforeprint", () => this.photograph(), { signal: this.tools.life() });
     this.stage.paint(this.tools.colour);
     this.time = this.opening();
     this.fit();
@@ -292,6 +292,13 @@ class Replay {
     this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);
   }
 
+  // Hands its share of the graphics memory back, before another takes its place.
+  end() {
+    this.pause();
+    this.stage.renderer.dispose();
+    this.stage.renderer.forceContextLoss();
+  }
+
   // ---- looks ----
 
   fit() {
@@ -364,4 +371,4 @@ class Replay {
   }
 }
 
-window.launchdyn = { replay: (host, given) => new Replay(host, given) };
+window.launchdyn = { ...window.launchdyn, replay: (host, given) => new Replay(host, given) };

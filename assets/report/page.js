@@ -38,6 +38,15 @@ export function onColours(paint) {
   painters.push(paint);
 }
 
+// What is shown lives until something else takes its place: then its painters go, and what listens with this signal.
+let living = new AbortController();
+export const life = () => living.signal;
+export function renew() {
+  living.abort();
+  living = new AbortController();
+  painters.length = 0;
+}
+
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
   colours = new Map();

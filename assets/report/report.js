@@ -3,25 +3,23 @@ import { answerCard } from "./answer.js";
 import { comparedLines, measuredPath, showCompared } from "./compared.js";
 import { filled, readable, rowAt } from "./data.js";
 import { decodeTable, inflated } from "./decode.js";
-import { colour, download, element, onColours, themeSwitch } from "./page.js";
+import { colour, download, element, life, onColours, renew, themeSwitch } from "./page.js";
 import { drawingCard } from "./drawing.js";
 import { originBlock } from "./origin.js";
 import { namedFigures, namingOf } from "./naming.js";
-import { panelsOf } from "./panels.js";
+import { panelsOf, panelsOver } from "./panels.js";
 import { addFigures, homeOf, launchChoice, launchWindow, PlotGroup } from "./plot_group.js";
 import { fixed, playing } from "./rounded.js";
 import { showSummary } from "./summary.js";
 
-const host = document.getElementById("report");
-const data = JSON.parse(document.getElementById("data").textContent), named = namingOf(data.geometry);
-data.figures = namedFigures(data.figures, named);
+// What is shown, one run at a time: `given` by the page that a report is, or by the page that simulates, run after run.
+let host, given, data, named, choice, shown, tables, launch, otherFlights;
 
 // The summary and its tables; neither where there is none, or one that makes no sense: then a warning says so.
 function readSummary() {
-  const node = document.getElementById("summary");
-  if (!node) return {};
+  if (!given.summary) return {};
   try {
-    const summary = JSON.parse(node.textContent);
+    const summary = JSON.parse(given.summary);
     return { summary, tables: showSummary(summary, named), notes: (summary.notes ?? []).map(String) };
   } catch {
     data.notes.push("No summary: summary.json does not belong to a run.");
@@ -30,12 +28,18 @@ function readSummary() {
 }
 
 // Of several flights the first shows its path, and folds the rest; the others are folded as a whole, side by side.
-const otherFlights = element("div", { className: "rest flights" });
-
 function figuresOf(table) {
   const flight = table.kind === "flight", figures = data.figures.filter(({ time }) => (time === "flight") === flight);
   const several = flight && table.rocket === 1 && data.rockets.length > 1;
   return figures.map((figure, i) => (several ? { ...figure, open: figure.open && i === 0 } : figure));
+}
+
+// The same table of runs before, whose curves are laid below: each {label, rockets, tables}.
+function earlierOf({ kind, rocket }) {
+  return given.earlier.flatMap(({ label, rockets, tables: before }, i) => {
+    const table = before.find((one) => one.kind === kind && one.rocket === rocket && one.t.length > 0);
+    return table ? [{ table, zero: rockets[Math.max(0, rocket - 1)]?.ignition ?? 0, label, index: i + 1 }] : [];
+  });
 }
 
 function showTable(table, index, nav) {
@@ -48,7 +52,10 @@ function showTable(table, index, nav) {
     vehicle: new PlotGroup(`table${index}`, homeOf(table, ignition, true)),
   };
   const id = `table${index}`, figures = figuresOf(table);
-  const fill = (host) => addFigures(host, id, figures, (figure) => panelsOf(table, figure, ignition), groups, marks);
+  const over = earlierOf(table);
+  const panels = (figure) => (over.length > 0 ? panelsOver([{ table, zero: ignition, label: given.label, index: 0 }, ...over], figure)
+    : panelsOf(table, figure, ignition));
+  const fill = (host) => addFigures(host, id, figures, panels, groups, marks);
   if (table.kind === "flight" && table.rocket > 1) {
     const folded = element("details", { className: "flight", id }, element("summary", {}, heading));
     folded.addEventListener("toggle", () => fill(folded), { once: true });
@@ -72,8 +79,6 @@ function hasWebGL() {
 }
 
 // Of several launches the plots and the replay show one, the first at first, or all of them.
-const choice = data.rockets.length > 1 ? launchChoice(data.rockets.length, (rocket) => chooseLaunch(rocket)) : null;
-
 function chooseLaunch(rocket) {
   const { group, zero } = shown[tables.indexOf(launch)];
   choice.show(rocket);
@@ -93,13 +98,15 @@ function missing() {
 
 // Takes the replay's own script out of the page and starts it; the page's policy knows that script.
 function startReplay(place, shown, flights) {
-  const code = new TextDecoder().decode(inflated(document.getElementById("replay").textContent));
-  document.head.append(element("script", { textContent: code }));
+  if (!window.launchdyn.replay) {
+    const code = new TextDecoder().decode(inflated(document.getElementById("replay").textContent));
+    document.head.append(element("script", { textContent: code }));
+  }
   const { table, marks, zero, group } = shown;
   let leading = false, last = 0, wanted = null;
   const replay = window.launchdyn.replay(place, {
     table, marks, zero, flights, geometry: data.geometry, rockets: data.rockets, measured: measuredPath(data.compared),
-    chose: chooseLaunch, tools: { colour, download, element, filled, fixed, onColours, playing, readable, rowAt }, version: data.version,
+    chose: chooseLaunch, tools: { colour, download, element, filled, fixed, life, onColours, playing, readable, rowAt }, version: data.version,
     shown: (time) => {
       const now = performance.now();
       if (now - last < 400 && replay?.playing) return;
@@ -143,19 +150,15 @@ function state(summary) {
   return element("p", { className: "state warning" }, `The run ended early: ${why}`);
 }
 
-const { summary, tables: summaryTables, notes: summaryNotes = [] } = readSummary();
-const tables = data.tables.map(decodeTable);
-const launch = tables.find((table) => table.kind === "launch" && table.t.length > 0);
-const replayed = launch ?? tables.find((table) => table.kind === "flight" && table.t.length > 0); // a flight alone has one, too
-const place = element("section", { className: "card replay", id: "replay-card" });
-const nav = element("nav", {}, element("a", { href: "#answer" }, "Answer"));
+// A flight alone has a replay, too.
+const replayed = () => launch ?? tables.find((table) => table.kind === "flight" && table.t.length > 0);
 
 // The first screen: replay, drawing, answer.
-function overview() {
+function overview({ summary, notes }, place) {
   const ignition = data.rockets[0]?.ignition ?? launch?.t[0] ?? 0;
-  const answer = answerCard({ summary, state: state(summary), notes: [...data.notes, ...summaryNotes], table: launch, ignition, named,
+  const answer = answerCard({ summary, state: state(summary), notes: [...data.notes, ...notes], table: launch, ignition, named,
     compared: comparedLines(data.compared) });
-  return element("div", { className: `overview${replayed ? "" : " alone"}` }, replayed ? place : null, answer, launch ? drawing() : null);
+  return element("div", { className: `overview${replayed() ? "" : " alone"}` }, replayed() ? place : null, answer, launch ? drawing() : null);
 }
 
 // Nothing where an earlier version has kept no geometry.
@@ -167,32 +170,64 @@ function drawing() {
   }
 }
 
-host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav,
-  themeSwitch()), overview());
-showCompared(host, nav, data.compared);
-const shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, nav));
-if (launch && choice) chooseLaunch(0);
-if (replayed)
-  showReplay(place, shown[tables.indexOf(replayed)],
-    data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && (!launch || table.rocket === i + 1) && table.t.length > 0)));
-if (summary) {
-  host.append(element("h2", { id: "summary-tables" }, "All numbers"), summaryTables);
-  nav.append(element("a", { href: "#summary-tables" }, "Numbers"));
-}
-
-const origin = document.getElementById("origin");
-if (origin) {
+function showOrigin(nav) {
+  if (!given.origin) return;
   host.append(element("section", { className: "together" }, element("h2", { id: "origin-heading" }, "Origin"),
-    originBlock(JSON.parse(origin.textContent), "run --again")));
+    originBlock(given.origin, "run --again")));
   nav.append(element("a", { href: "#origin-heading" }, "Origin"));
 }
 
-const rows = tables.reduce((sum, table) => sum + table.full, 0);
-host.append(element("footer", {}, element("p", {},
-  `launchdyn ${data.version}. Drag over a plot to zoom, double-click to see all; with the keyboard: ` +
-  "Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
-  (data.pixels === 0 ? `The report has all ${rows} rows of the results, `
-    : `Of ${rows} rows the report has those that curves require (error at most ` +
-      `${readable(data.pixels)} of 4000 pixels of the curve's height in ${data.overAll ? "all" : "each phase"} ` +
-      "of the run), ") + "to 7 digits.")));
-document.documentElement.dataset.ready = "yes";
+function foot() {
+  const rows = tables.reduce((sum, table) => sum + table.full, 0);
+  return element("footer", {}, element("p", {},
+    `launchdyn ${data.version}. Drag over a plot to zoom, double-click to see all; with the keyboard: ` +
+    "Tab to a plot, arrows move the cursor, + and - zoom, Escape shows all. " +
+    (data.pixels === 0 ? `The report has all ${rows} rows of the results, `
+      : `Of ${rows} rows the report has those that curves require (error at most ` +
+        `${readable(data.pixels)} of 4000 pixels of the curve's height in ${data.overAll ? "all" : "each phase"} ` +
+        "of the run), ") + "to 7 digits."));
+}
+
+// Shows a run in place of the one before: its data and the text of its summary, its origin or null; `theme`: the switch of
+// the page; `earlier` runs and its own `label` among them. Returns its tables, for it to be an earlier run.
+function show(more) {
+  window.launchdyn.current?.end();
+  delete window.launchdyn.current;
+  renew();
+  given = more;
+  data = { ...given.data, notes: [...given.data.notes] };
+  named = namingOf(data.geometry);
+  data.figures = namedFigures(data.figures, named);
+  otherFlights = element("div", { className: "rest flights" });
+  choice = data.rockets.length > 1 ? launchChoice(data.rockets.length, (rocket) => chooseLaunch(rocket)) : null;
+  const { summary, tables: summaryTables, notes = [] } = readSummary();
+  tables = data.tables.map(decodeTable);
+  launch = tables.find((table) => table.kind === "launch" && table.t.length > 0);
+  const place = element("section", { className: "card replay", id: "replay-card" });
+  const nav = element("nav", {}, element("a", { href: "#answer" }, "Answer"));
+  host.replaceChildren(element("header", {}, element("h1", {}, summary?.title || data.title), nav, given.theme),
+    overview({ summary, notes }, place));
+  showCompared(host, nav, data.compared);
+  shown = tables.map((table, i) => table.t.length > 0 && showTable(table, i, nav));
+  if (launch && choice) chooseLaunch(0);
+  if (replayed())
+    showReplay(place, shown[tables.indexOf(replayed())],
+      data.rockets.map((_, i) => tables.find((table) => table.kind === "flight" && (!launch || table.rocket === i + 1) && table.t.length > 0)));
+  if (summary) {
+    host.append(element("h2", { id: "summary-tables" }, "All numbers"), summaryTables);
+    nav.append(element("a", { href: "#summary-tables" }, "Numbers"));
+  }
+  showOrigin(nav);
+  host.append(foot());
+  document.documentElement.dataset.ready = "yes";
+  return { rockets: data.rockets, tables };
+}
+
+host = document.getElementById("report");
+window.launchdyn = { show, element, download, inflated, themeSwitch };
+const read = (name) => document.getElementById(name)?.textContent;
+if (read("data")) {
+  const origin = read("origin");
+  show({ data: JSON.parse(read("data")), summary: read("summary"), origin: origin ? JSON.parse(origin) : null, theme: themeSwitch(),
+    earlier: [] });
+}

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { filled, readable, rowAt } from "./data.js";
 import { placeOnLine } from "./labels.js";
-import { colour, curveColour, onColours } from "./page.js";
+import { colour, curveColour, life, onColours } from "./page.js";
 import { tickTexts } from "./ticks.js";
 
 const NAMES = 20; // height above the plot for the names of instants [px]
@@ -157,8 +157,8 @@ function listenToKeys(u, data, group) {
 // A plot that fills its row on paper alone is drawn as wide as two there, for its letters to be as large as theirs.
 function drawWideOnPaper(u, host, height) {
   const alone = ".of5 > :nth-child(3) *, .grid > :last-child:nth-child(odd) *";
-  addEventListener("beforeprint", () => host.matches(alone) && u.setSize({ width: Math.max(PAPER, u.width), height }));
-  addEventListener("afterprint", () => u.setSize({ width: host.clientWidth || u.width, height }));
+  addEventListener("beforeprint", () => host.matches(alone) && u.setSize({ width: Math.max(PAPER, u.width), height }), { signal: life() });
+  addEventListener("afterprint", () => u.setSize({ width: host.clientWidth || u.width, height }), { signal: life() });
 }
 
 export function timePlot(shown, group, marks, host) {
@@ -172,6 +172,7 @@ export function timePlot(shown, group, marks, host) {
   }).observe(host);
   onColours(() => u.redraw(false, true));
   drawWideOnPaper(u, host, shown.height);
+  life().addEventListener("abort", () => u.destroy());
   return {
     uplot: u,
     window: (min, max) => u.setScale("x", { min, max }),
