@@ -227,6 +227,37 @@ hid_t hdf5_string_type(size_t length)
     return type;
 }
 
+// Both attributes are ASCII with a zero at the end, or they are none of a scale.
+static bool write_ascii(hid_t object, const char *name, const char *text)
+{
+    hid_t type = H5Tcopy(H5T_C_S1);
+    bool fine =
+        H5Tset_size(type, strlen(text) + 1) >= 0 && write_attribute(object, name, type, text);
+    H5Tclose(type);
+    return fine;
+}
+
+bool hdf5_make_scale(hid_t dataset, const char *name)
+{
+    return write_ascii(dataset, "CLASS", "DIMENSION_SCALE") && write_ascii(dataset, "NAME", name);
+}
+
+bool hdf5_set_scale(hid_t dataset, hid_t scale)
+{
+    hsize_t one = 1;
+    hobj_ref_t reference;
+    hvl_t list = {.len = 1, .p = &reference};
+    if (H5Rcreate(&reference, scale, ".", H5R_OBJECT, -1) < 0)
+        return false;
+    hid_t type = H5Tvlen_create(H5T_STD_REF_OBJ), space = H5Screate_simple(1, &one, NULL);
+    hid_t attribute = H5Acreate2(dataset, "DIMENSION_LIST", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    bool fine = attribute >= 0 && H5Awrite(attribute, type, &list) >= 0;
+    fine = attribute >= 0 && H5Aclose(attribute) >= 0 && fine;
+    H5Sclose(space);
+    H5Tclose(type);
+    return fine;
+}
+
 bool hdf5_write_string(hid_t object, const char *name, const char *text)
 {
     hid_t type = hdf5_string_type(strlen(text));
@@ -242,6 +273,7 @@ bool hdf5_write_document(hid_t group, const char *key, const char *name, const c
     hid_t type = hdf5_string_type(length);
     hid_t dataset = hdf5_create_piece(group, key, type, 1, &one);
     bool fine = dataset >= 0 && H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) >= 0 &&
+                hdf5_make_scale(dataset, key) &&
                 (!name || hdf5_write_string(dataset, "name", name));
     fine = dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
     H5Tclose(type);

@@ -44,8 +44,14 @@ hid_t hdf5_string_type(size_t length);
 bool hdf5_write_integer(hid_t object, const char *name, int value);
 bool hdf5_write_number(hid_t object, const char *name, double value);
 
+// Dimension scales (HDF5's high-level specification; netCDF-4's coordinate variables, by which
+// xarray opens a file): the dataset becomes the scale of that name; the one dimension of the
+// dataset has this scale. The scale has no REFERENCE_LIST: netCDF-4 requires none.
+bool hdf5_make_scale(hid_t dataset, const char *name);
+bool hdf5_set_scale(hid_t dataset, hid_t scale);
+
 // UTF-8 text of fixed length, since HDF5 crashes on damage to those of variable length: an
-// attribute, or a dataset of one with an attribute `name` (NULL: without).
+// attribute, or a dataset of one with an attribute `name` (NULL: without), its own scale.
 bool hdf5_write_string(hid_t object, const char *name, const char *text);
 bool hdf5_write_document(hid_t group, const char *key, const char *name, const char *text,
                          size_t length);

@@ -10,7 +10,7 @@
 #include "quantities/summary.h"
 
 // Of history.h5: 1 had texts of variable length and no checksums.
-enum { HISTORY_FORMAT = 2 };
+enum { HISTORY_FORMAT = 3 };
 
 // history.h5, laid out as docs/results.md says. Rows are gathered in blocks; after each block the
 // file on disk is complete up to there.

@@ -109,8 +109,8 @@ static bool write_array(hid_t group, const ld_array *array)
     bool fine =
         dataset >= 0 &&
         H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array->value) >= 0 &&
-        hdf5_write_string(dataset, "unit", array->unit) &&
-        hdf5_write_string(dataset, "description", array->description);
+        hdf5_write_string(dataset, "units", array->unit) &&
+        hdf5_write_string(dataset, "long_name", array->description);
     return dataset >= 0 && H5Dclose(dataset) >= 0 && fine;
 }
 
@@ -138,12 +138,20 @@ static hid_t create_column(hid_t group, const ld_column *column, hid_t space, hi
 {
     hid_t dataset =
         H5Dcreate2(group, column->name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, access);
-    if (dataset >= 0 && hdf5_write_string(dataset, "unit", column->unit) &&
-        hdf5_write_string(dataset, "description", column->description))
+    if (dataset >= 0 && hdf5_write_string(dataset, "units", column->unit) &&
+        hdf5_write_string(dataset, "long_name", column->description))
         return dataset;
     if (dataset >= 0)
         H5Dclose(dataset);
     return -1;
+}
+
+// The first column of a table over t is the scale of all.
+static bool give_scale(const hid_t *dataset, const ld_column *columns, size_t i)
+{
+    if (strcmp(columns[0].name, "t") != 0)
+        return true;
+    return i == 0 ? hdf5_make_scale(dataset[0], "t") : hdf5_set_scale(dataset[i], dataset[0]);
 }
 
 static bool create_columns(history_hdf5 *history, const ld_column *columns, size_t count)
@@ -159,7 +167,7 @@ static bool create_columns(history_hdf5 *history, const ld_column *columns, size
     bool fine = true;
     for (size_t i = 0; fine && i < count; i++) {
         history->dataset[i] = create_column(history->group, &columns[i], space, properties, access);
-        fine = history->dataset[i] >= 0;
+        fine = history->dataset[i] >= 0 && give_scale(history->dataset, columns, i);
     }
     H5Pclose(access);
     H5Pclose(properties);

@@ -56,7 +56,9 @@ static bool read_names(hid_t group, history_data *history)
         hid_t dataset = history->name[i] ? hdf5_open_dataset(group, history->name[i]) : -1;
         if (dataset < 0)
             return false;
-        history->unit[i] = hdf5_read_string(dataset, "unit");
+        history->unit[i] = hdf5_read_string(dataset, "units");
+        if (!history->unit[i]) // before format 3
+            history->unit[i] = hdf5_read_string(dataset, "unit");
         if (!history->unit[i]) {
             H5Dclose(dataset);
             return false;

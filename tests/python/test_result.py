@@ -216,6 +216,24 @@ class TestTables(Case):
         with self.assertRaises(ValueError):
             data["tip.y"][:] = 0
 
+    @needs("h5netcdf")
+    @needs("xarray")
+    def test_the_file_is_a_data_set(self):
+        import xarray
+        scenario = ld.Scenario.read(FIXED, {"run.end": "apogee"})
+        result = scenario.run(out=self.folder / "out")
+        for group, table in (("history", result.history), ("rockets/1/flight", result.flight())):
+            with xarray.open_dataset(self.folder / "out/history.h5", engine="h5netcdf", group=group) as data:
+                self.assertEqual([*data.variables][0], "t")
+                self.assertEqual(set(data.variables), set(table))
+                for name, column in table.columns.items():
+                    np.testing.assert_array_equal(data[name], table[name], name)
+                    self.assertEqual(data[name].dims, ("t",))
+                    self.assertEqual(data[name].attrs, {"units": column.unit, "long_name": column.description})
+        with xarray.open_dataset(self.folder / "out/history.h5", engine="h5netcdf") as whole:
+            self.assertEqual(whole.attrs["complete"], 1)
+            self.assertIn("rocket:", whole["scenario"].values[0].decode())
+
     def test_without_them_it_says_so(self):
         for name, to in (("pandas", self.result.to_pandas), ("xarray", self.result.to_xarray)):
             with mock.patch.dict(sys.modules, {name: None}), \

@@ -148,6 +148,26 @@ static void test_hdf5_holds_every_bit(void **state)
     }
 }
 
+// Before format 3 units were the attribute "unit".
+static void test_earlier_histories_are_read(void **state)
+{
+    place *here = *state;
+    write_launch(here, "run", false, 20);
+    hid_t file = H5Fopen(in(here, "run/history.h5"), H5F_ACC_RDWR, H5P_DEFAULT);
+    for (size_t i = 0; i < MADE_COLUMNS; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "/history/%s", made_columns()[i].name);
+        assert_true(H5Arename_by_name(file, path, "units", "unit", H5P_DEFAULT) >= 0);
+    }
+    assert_true(H5Fclose(file) >= 0);
+    history_data read;
+    assert_int_equal(history_read(in(here, "run/history.h5"), &read, NULL), LD_OK);
+    for (size_t i = 0; i < MADE_COLUMNS; i++)
+        assert_string_equal(read.unit[i], made_columns()[i].unit);
+    CHECK_BELOW("values of an earlier history.h5 that differ", (double)differences(&read), 0.0);
+    history_free(&read);
+}
+
 // h5dump knows nothing of our reader.
 static void test_hdf5_is_read_by_others(void **state)
 {
@@ -159,10 +179,15 @@ static void test_hdf5_is_read_by_others(void **state)
     made_row(2, values);
     snprintf(number, sizeof number, " %.17g\n", values[33]);
     assert_non_null(strstr(printed_by("h5dump -m %%.17g -d /history/tip.y %s", file), number));
-    assert_non_null(strstr(printed_by("h5dump -a /history/tip.y/unit %s", file), "\"m\""));
-    const char *description = printed_by("h5dump -a /history/tip.y/description %s", file);
+    assert_non_null(strstr(printed_by("h5dump -a /history/tip.y/units %s", file), "\"m\""));
+    const char *description = printed_by("h5dump -a /history/tip.y/long_name %s", file);
     assert_non_null(strstr(description, "H5T_CSET_UTF8"));
     assert_non_null(strstr(description, "\"made up, "));
+    assert_non_null(
+        strstr(printed_by("h5dump -a /history/t/CLASS %s", file), "\"DIMENSION_SCALE\""));
+    assert_non_null(strstr(printed_by("h5dump -a /history/t/NAME %s", file), "\"t\""));
+    assert_non_null(
+        strstr(printed_by("h5dump -a /history/tip.y/DIMENSION_LIST %s", file), "/history/t"));
     assert_non_null(strstr(printed_by("h5dump -a /complete %s", file), "(0): 1"));
     assert_non_null(strstr(printed_by("h5dump -a /rockets/1/tube %s", file), "(0): 8"));
     assert_non_null(strstr(printed_by("h5dump -a /version %s", file), "\"0."));
@@ -711,6 +736,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_hdf5_holds_every_bit),
+        TEST(test_earlier_histories_are_read),
         TEST(test_hdf5_is_read_by_others),
         TEST(test_same_run_same_bytes),
         TEST(test_csv_holds_every_bit),
