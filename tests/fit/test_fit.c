@@ -182,6 +182,31 @@ static void test_exact(void **state)
     ld_model_free(model);
 }
 
+// One key: 1/deviation^2 is the sum of (change of a result by the key/uncertainty)^2.
+static void test_deviation(void **state)
+{
+    (void)state;
+    const char *const less[] = {"rocket.motor.thrust_scale=1.01"},
+                      *const more[] = {"rocket.motor.thrust_scale=1.03"};
+    const double uncertainty[2] = {0.4e-3, 0.3};
+    double value[RESULTS], low[RESULTS], high[RESULTS], sum = 0;
+    found of = {0};
+    ld_model *model = make_model(NULL, 0);
+    launch(truth, 1, value);
+    launch(less, 1, low);
+    launch(more, 1, high);
+    for (int k = 0; k < 2; k++)
+        sum += pow((high[k + 2] - low[k + 2]) / 0.02 / uncertainty[k], 2);
+    FILE *stream = fopen(in("deviation.csv"), "w");
+    fprintf(stream,
+            "t_rear [s],t_rear_u [s],exit_speed [m/s],exit_speed_u [m/s]\n%.17g,%g,%.17g,%g\n",
+            value[2], uncertainty[0], value[3], uncertainty[1]);
+    fclose(stream);
+    fit_well(model, 1, in("deviation.csv"), 1, &of);
+    CHECK_BELOW("deviation of one key, relative", of.deviation[0] * sqrt(sum) - 1, 2e-3);
+    ld_model_free(model);
+}
+
 // ---- with noise
 
 // How often the truth lies inside the 95 % intervals of `sets` fits, each to 36 launches.
@@ -424,9 +449,10 @@ static void test_salvo(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),     cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_settings),  cmocka_unit_test(test_prior),
-        cmocka_unit_test(test_continues), cmocka_unit_test(test_fitted),
-        cmocka_unit_test(test_refused),   cmocka_unit_test(test_salvo)};
+        cmocka_unit_test(test_exact),    cmocka_unit_test(test_deviation),
+        cmocka_unit_test(test_coverage), cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_prior),    cmocka_unit_test(test_continues),
+        cmocka_unit_test(test_fitted),   cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_salvo)};
     return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
 }
