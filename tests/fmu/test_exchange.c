@@ -107,7 +107,7 @@ static void comes_to_what_the_library_comes_to(void **state)
 {
     (void)state;
     static const launch_case cases[] = {
-        {"examples/fixed", {NULL}, 2, 1, true, true},
+        {"examples/fixed", {"tubes.modes.cut=900 Hz"}, 2, 1, true, true},
         {"examples/ship", {"run.lead_in=0.1 s"}, 3, 1, true, false},
         {"examples/reference", {"run.lead_in=0.1 s"}, 3, 1, true, true},
         {"examples/line-thrower", {NULL}, 3, 1, true, false},
