@@ -90,9 +90,9 @@ ld_status simulation_renew(ld_simulation **simulation, const ld_model *model, ld
 // ---- modes ----
 
 // The simulation with the tube's modes unslowed (`tubes.modes.cut`): the given one, or one of
-// `model`, allocated, to be freed as that is.
-static ld_status unslow(const ld_simulation *of, ld_model **model, ld_simulation **plain,
-                        ld_error *error)
+// `model`, allocated, to be freed as that is. What was kept of the tube may be used.
+static ld_status unslow(const ld_simulation *of, launcher_kept *kept, ld_model **model,
+                        ld_simulation **plain, ld_error *error)
 {
     *model = NULL;
     *plain = NULL;
@@ -103,17 +103,25 @@ static ld_status unslow(const ld_simulation *of, ld_model **model, ld_simulation
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     **model = *of->model;
     (*model)->tubes.modes.cut = 0;
-    return simulation_renew(plain, *model, error);
+    *plain = simulation_make(error);
+    if (!*plain)
+        return LD_ERR_MEMORY;
+    (*plain)->model = *model;
+    return create_launch(*plain, kept, error);
 }
 
 static ld_status find_tube_modes(ld_simulation *self, ld_error *error)
 {
-    ld_model *model;
-    ld_simulation *plain;
-    ld_status status = unslow(self, &model, &plain, error);
+    ld_model *model = NULL;
+    ld_simulation *plain = NULL;
+    launcher_kept kept = {0};
+    ld_status status = launching_take_unslowed(&self->launcher.launching, &kept.tube, error);
+    if (!status)
+        status = unslow(self, &kept, &model, &plain, error);
     if (!status)
         status = simulation_tube_modes(plain ? plain : self, self->mode, 6 + LD_MAX_MODES,
                                        &self->mode_count, error);
+    launcher_kept_free(&kept);
     ld_simulation_free(plain);
     free(model);
     return status;
@@ -129,7 +137,7 @@ ld_status ld_simulation_system_modes(const ld_simulation *simulation, ld_mode *m
     ld_model *model = NULL;
     ld_simulation *plain = NULL;
     ld_status status = model_has_launcher(simulation->model)
-                           ? unslow(simulation, &model, &plain, error)
+                           ? unslow(simulation, NULL, &model, &plain, error)
                            : ld_fail(error, LD_ERR_INPUT,
                                      "a scenario of flight only has no launcher and no modes");
     if (!status)

@@ -314,10 +314,11 @@ static int padded(int count)
     return (count + 3) / 4 * 4;
 }
 
-ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_error *error)
+// The tube of the lines' shapes.
+static ld_status make_tube(flexible_tube *tube, const tube_lines *of, const ld_tubes *model,
+                           ld_error *error)
 {
     const ld_modes *modes = &model->modes;
-    tube_lines of = {0};
     *tube = (flexible_tube){.nb = modes->bending,
                             .nt = modes->torsion,
                             .na = modes->axial,
@@ -327,27 +328,56 @@ ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_err
                             .length = model->length,
                             .bore_radius = model->section[0].bore_radius,
                             .support_count = model->support_count};
-    ld_status status = check_model(model, error);
-    if (!status)
-        status = build_lines(&of, model, error);
-    if (!status)
-        status = allocate(tube, &of, error);
+    ld_status status = allocate(tube, of, error);
     if (!status && modes->shear_coefficient > 0)
         status = allocate_shear(tube, error);
     if (!status)
-        fill_tube(tube, &of, model);
+        fill_tube(tube, of, model);
+    return status;
+}
+
+// Slows what is faster than the cut, once the tube with its modes as they are is made.
+static ld_status slow_lines(tube_lines *of, const ld_tubes *model, flexible_tube **unslowed,
+                            ld_error *error)
+{
+    *unslowed = calloc(1, sizeof **unslowed);
+    if (!*unslowed)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
+    ld_status status = make_tube(*unslowed, of, model, error);
+    for (int i = 0; i < LINES && !status; i++)
+        line_shapes_slow(&of->shapes[i], &of->line[i], model->modes.cut);
+    return status;
+}
+
+ld_status flexible_tube_build(flexible_tube *tube, const ld_tubes *model, ld_error *error)
+{
+    tube_lines of = {0};
+    flexible_tube *unslowed = NULL;
+    *tube = (flexible_tube){0};
+    ld_status status = check_model(model, error);
+    if (!status)
+        status = build_lines(&of, model, error);
+    if (!status && model->modes.cut > 0)
+        status = slow_lines(&of, model, &unslowed, error);
+    if (!status)
+        status = make_tube(tube, &of, model, error);
+    tube->unslowed = unslowed;
     free_lines(&of);
     return status;
 }
 
 void flexible_tube_free(flexible_tube *tube)
 {
+    flexible_tube *unslowed = tube->unslowed;
     free(tube->element);
     free(tube->overlap);
     if (tube->shear)
         free(tube->shear->strain);
     free(tube->shear);
     *tube = (flexible_tube){0};
+    if (unslowed)
+        flexible_tube_free(unslowed);
+    free(unslowed);
 }
 
 int flexible_tube_find(const flexible_tube *tube, double x)

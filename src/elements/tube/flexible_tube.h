@@ -64,6 +64,7 @@ typedef struct flexible_tube {
                                         // across the axis alone
     tube_shear *shear;                  // owned; NULL: sections stay across the axis, without
                                         // rotary inertia across it
+    struct flexible_tube *unslowed; // where modes.cut may slow some, with them as they are; owned
     int support_count;
     int support_element[LD_MAX_SUPPORTS]; // element that holds support k's station
 } flexible_tube;

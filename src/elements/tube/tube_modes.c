@@ -432,22 +432,6 @@ static void write_shapes(const tube_line *line, const double *own, const double 
     }
 }
 
-// Selective mass scaling (theory-tube.md): modes above the cut keep b b^T / omega^2, what they give
-// way to at rest, and have the cut's frequency.
-static void slow_modes(line_shapes *shapes, int n, double cut)
-{
-    double limit = 2 * M_PI * cut, om2 = limit * limit;
-    for (int k = 0; k < shapes->count; k++) {
-        if (!(cut > 0) || shapes->om2[k] <= om2)
-            continue;
-        double scale = limit / sqrt(shapes->om2[k]);
-        for (int d = 0; d < n; d++)
-            shapes->nodal[k * n + d] *= scale;
-        shapes->om2[k] = om2;
-        shapes->slowed++;
-    }
-}
-
 static ld_status choose_modes(line_shapes *shapes, const tube_line *line, const ld_tubes *model,
                               elastic_modes *modes, ld_error *error)
 {
@@ -467,8 +451,6 @@ static ld_status choose_modes(line_shapes *shapes, const tube_line *line, const 
     status = diagonalise(line, m, modes->part, own, modes->omega, error);
     if (!status)
         write_shapes(line, own, modes->omega, shapes);
-    if (!status)
-        slow_modes(shapes, line->n, model->modes.cut);
     free(own);
     return status;
 }
@@ -485,6 +467,21 @@ ld_status line_shapes_choose(line_shapes *shapes, const tube_line *line, const l
                            : ld_fail(error, LD_ERR_MEMORY, "no memory for the modes");
     free(part);
     return status;
+}
+
+void line_shapes_slow(line_shapes *shapes, const tube_line *line, double cut)
+{
+    double limit = 2 * M_PI * cut, om2 = limit * limit;
+    int n = line->n;
+    for (int k = 0; k < shapes->count; k++) {
+        if (shapes->om2[k] <= om2)
+            continue;
+        double scale = limit / sqrt(shapes->om2[k]);
+        for (int d = 0; d < n; d++)
+            shapes->nodal[k * n + d] *= scale;
+        shapes->om2[k] = om2;
+        shapes->slowed++;
+    }
 }
 
 void line_shapes_free(line_shapes *shapes)

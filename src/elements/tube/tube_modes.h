@@ -55,6 +55,9 @@ typedef struct line_shapes {
 // Chooses shapes->count shapes of the span that the model asks for.
 ld_status line_shapes_choose(line_shapes *shapes, const tube_line *line, const ld_tubes *model,
                              ld_error *error);
+// Selective mass scaling (theory-tube.md): shapes faster than the cut [Hz] keep b b^T / omega^2,
+// what they give way to at rest, and have the cut's frequency.
+void line_shapes_slow(line_shapes *shapes, const tube_line *line, double cut);
 void line_shapes_free(line_shapes *shapes);
 
 #endif

@@ -89,28 +89,52 @@ static void use_tube(launching_system *self, launching_tube *kept)
     *kept = (launching_tube){0};
 }
 
+// What a system finds besides of a tube: the shortening, the shapes by element.
+static ld_status complete_tube(flexible_tube *tube, const ld_tubes *tubes, packed_element **packed,
+                               ld_error *error)
+{
+    ld_status status = LD_OK;
+    if (tubes->modes.geometric_stiffness == LD_GEOMETRIC_YES)
+        status = shortening_build(tube, tubes, error);
+    if (status)
+        return status;
+    size_t count = (size_t)tube->element_count;
+    *packed = aligned_alloc(64, (count * sizeof **packed + 63) / 64 * 64);
+    if (!*packed)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the tube's shapes");
+    for (size_t i = 0; i < count; i++)
+        tube_pack_element(tube, &tube->element[i], &(*packed)[i]);
+    return LD_OK;
+}
+
 static ld_status build_tube(launching_system *self, ld_error *error)
 {
     tube_system *tube = &self->tube;
     ld_error reason = {0};
     ld_status status = flexible_tube_build(&tube->flexible, &self->tubes, &reason);
-    if (!status && self->tubes.modes.geometric_stiffness == LD_GEOMETRIC_YES)
-        status = shortening_build(&tube->flexible, &self->tubes, &reason);
-    if (status)
-        return ld_fail(error, status == LD_ERR_MEMORY ? status : LD_ERR_INPUT, "%s%s",
-                       status == LD_ERR_MEMORY    ? ""
-                       : status == LD_ERR_NUMERIC ? "tubes.sections: "
-                                                  : "tubes.modes: ",
-                       reason.text);
-    size_t count = (size_t)tube->flexible.element_count;
-    tube->packed = aligned_alloc(64, (count * sizeof(packed_element) + 63) / 64 * 64);
-    if (!tube->packed) {
-        launching_free(self);
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the tube's shapes");
-    }
-    for (size_t i = 0; i < count; i++)
-        tube_pack_element(&tube->flexible, &tube->flexible.element[i], &tube->packed[i]);
-    return LD_OK;
+    if (!status)
+        status = complete_tube(&tube->flexible, &self->tubes, &tube->packed, &reason);
+    if (!status)
+        return LD_OK;
+    launching_free(self);
+    return ld_fail(error, status == LD_ERR_MEMORY ? status : LD_ERR_INPUT, "%s%s",
+                   status == LD_ERR_MEMORY    ? ""
+                   : status == LD_ERR_NUMERIC ? "tubes.sections: "
+                                              : "tubes.modes: ",
+                   reason.text);
+}
+
+ld_status launching_take_unslowed(launching_system *self, launching_tube *to, ld_error *error)
+{
+    flexible_tube *unslowed = self->tube.flexible.unslowed;
+    *to = (launching_tube){.tubes = self->tubes};
+    if (!unslowed)
+        return LD_OK;
+    to->tubes.modes.cut = 0;
+    to->tube = *unslowed;
+    free(unslowed);
+    self->tube.flexible.unslowed = NULL;
+    return complete_tube(&to->tube, &to->tubes, &to->packed, error);
 }
 
 static ld_status build_cuts(launching_system *self, ld_error *error)

@@ -53,6 +53,9 @@ typedef struct launching_tube {
 
 // Takes it from a system that is used no more.
 launching_tube launching_take_tube(launching_system *self);
+// Takes, once, the same tube without the cut of its modes, for a system that shows them as they
+// are; to be freed. Without a cut, or later, there is none: its `packed` is NULL.
+ld_status launching_take_unslowed(launching_system *self, launching_tube *to, ld_error *error);
 void launching_tube_free(launching_tube *self);
 
 // Builds the system; with what was kept (or NULL) where the tube is the same to the bit, which it
