@@ -216,10 +216,13 @@ static int ascending(const void *left, const void *right)
 
 // Mach numbers at which cubics meet the slopes of fins within 1.3e-6 of themselves, whatever their
 // aspect ratio, and within 2.4e-7 up to one of 5. Above Mach 1 they lie as Mach - 1 grows, by which
-// the slopes of wide fins fall.
-static void fin_points(double mach[FIN_POINTS])
+// the slopes of wide fins fall. Computed once by each thread.
+static const double *fin_points(void)
 {
     enum { SUBSONIC = 40 };
+    static _Thread_local double mach[FIN_POINTS];
+    if (mach[SUBSONIC] > 0)
+        return mach;
     const double first = BARROWMAN_SUPERSONIC - 1, most = FIN_MOST - 1;
     for (int i = 0; i < SUBSONIC; i++)
         mach[i] = BARROWMAN_SUBSONIC * i / SUBSONIC;
@@ -227,6 +230,7 @@ static void fin_points(double mach[FIN_POINTS])
     int steps = FIN_POINTS - SUBSONIC - 2;
     for (int i = 0; i <= steps; i++)
         mach[SUBSONIC + 1 + i] = 1 + first * pow(most / first, (double)i / steps);
+    return mach;
 }
 
 // The corners of all parts up to `last`, each once; at least two. Returns how many there are.
@@ -242,7 +246,7 @@ static size_t corners_of(const part_list *list, double last, double *x)
         fins |= list->part[i].aspect > 0;
     }
     if (fins) {
-        fin_points(x + count);
+        memcpy(x + count, fin_points(), FIN_POINTS * sizeof *x);
         count += FIN_POINTS;
     }
     qsort(x, count, sizeof *x, ascending);

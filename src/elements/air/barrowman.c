@@ -49,11 +49,27 @@ static nose_shares nose_shares_of(ld_nose_shape shape, double slenderness)
     return (nose_shares){step * sum[0], step * sum[1], sum[2] / sum[1]};
 }
 
+// The same; the last answer of each thread is kept, as the samples of a study share their noses.
+static nose_shares last_nose_shares(ld_nose_shape shape, double slenderness)
+{
+    static _Thread_local struct {
+        double slenderness; // 0: none is kept
+        ld_nose_shape shape;
+        nose_shares share;
+    } last;
+    if (slenderness != last.slenderness || shape != last.shape) {
+        last.share = nose_shares_of(shape, slenderness);
+        last.slenderness = slenderness;
+        last.shape = shape;
+    }
+    return last.share;
+}
+
 // Slender-body theory: slope 2 (A_rear - A_front)/S at (l A_rear - V)/(A_rear - A_front) from the
 // front end, V the volume (Barrowman 1966; 1967, chapter 3).
 barrowman_body barrowman_nose(ld_nose_shape shape, double length, double radius, double area)
 {
-    nose_shares share = nose_shares_of(shape, length / radius);
+    nose_shares share = last_nose_shares(shape, length / radius);
     return (barrowman_body){.slope = 2 * PI * radius * radius / area,
                             .center = length * (1 - share.volume),
                             .side = 2 * radius * length * share.side,
