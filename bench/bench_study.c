@@ -37,6 +37,20 @@ static const char flight[] = "include: flight.yaml\n"
                              "    flight.rate.y: {normal: 50 mrad/s}\n"
                              "    flight.rate.z: {normal: 50 mrad/s}\n";
 
+#define STUDENT                                                                                    \
+    "include: ../bench/student.yaml\n"                                                             \
+    "scatter:\n  seed: 1\n  samples: 2000\n  factors:\n"                                           \
+    "    rocket.mass_error: {normal: 0.1 kg, within: 3}\n"                                         \
+    "    rocket.motor.thrust_scale: {normal: 2 %, within: 3}\n"                                    \
+    "    rocket.aerodynamics.ca_scale: {normal: 5 %, within: 3}\n"                                 \
+    "    environment.wind.scale: {normal: 10 %, within: 3}\n"                                      \
+    "    flight.attitude.pitch: {normal: 10 mrad}\n"                                               \
+    "    flight.attitude.yaw: {normal: 10 mrad}\n"
+
+static const char student[] = STUDENT;
+static const char student_flat[] = STUDENT
+    "environment: {earth: flat, site: {latitude: , longitude: }}\nflight: {rate_against: }\n";
+
 static bool always(void *self)
 {
     (void)self;
@@ -176,10 +190,13 @@ static void bench_kind(const char *what, const char *text)
 }
 
 // A study's flights in as many lanes as the environment allows: CPU of all of it, records included.
-static void bench_lanes(const char *text)
+static void bench_lanes(const char *what, const char *text)
 {
+    double alone = 0;
+
     ld_study *study = read_study(text);
     study->nominal->run.flight_tolerance = 2.5e-4; // 0.1 m rms
+    printf("%s\n", what);
     for (int lanes = 1; lanes <= 8; lanes = lanes == 1 ? 4 : 2 * lanes) {
         char most[16];
         double cpu = INFINITY;
@@ -192,8 +209,10 @@ static void bench_lanes(const char *text)
             study_wall(study, 1);
             cpu = fmin(cpu, now() - start);
         }
-        printf("    in %d lane%s %.0f flights a second and core, records included\n", lanes,
-               lanes > 1 ? "s" : "", (double)study->samples / cpu);
+        alone = lanes == 1 ? cpu : alone;
+        printf("    in %d lane%s %.0f flights a second and core, records included, %.2f times one "
+               "lane's\n",
+               lanes, lanes > 1 ? "s" : "", (double)study->samples / cpu, alone / cpu);
     }
     unsetenv("LAUNCHDYN_LANES");
     ld_study_free(study);
@@ -256,7 +275,9 @@ int main(void)
     bench_kind("salvo at 0 km/h", salvo);
     bench_kind("launch at 30 km/h", marching);
     bench_kind("flight alone", flight);
-    bench_lanes(flight);
+    bench_lanes("reference flight", flight);
+    bench_lanes("student rocket, flat Earth", student_flat);
+    bench_lanes("student rocket, WGS 84", student);
     bench_tolerance(flight);
     return 0;
 }
