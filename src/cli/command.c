@@ -238,6 +238,13 @@ void command_warn_difference(const char *folder, const ld_origin *origin)
                          folder, text);
 }
 
+const char *command_wrong_jobs(int threads)
+{
+    enum { MOST_THREADS = 1024 };
+    return threads < 1 || threads > MOST_THREADS ? "--jobs: expected a number from 1 to 1024"
+                                                 : NULL;
+}
+
 int command_take_notes(ld_source *source, int from, int to, bool strict)
 {
     ld_messages notes;

@@ -69,6 +69,19 @@ int command_wind(const command *self, int argc, char **argv);
             NULL                                                                                   \
     }
 
+#define COMMAND_JOBS(threads, what)                                                                \
+    {                                                                                              \
+        "jobs", 'j', OPTION_INTEGER, threads, "Number of " what " computed in parallel (1)", "N"   \
+    }
+
+#define COMMAND_JSON(json)                                                                         \
+    {                                                                                              \
+        "json", '\0', OPTION_FLAG, json, "Print as JSON, in full precision", NULL                  \
+    }
+
+// What is wrong with a number of jobs; NULL: nothing.
+const char *command_wrong_jobs(int threads);
+
 // The options of every command, with which its list ends: what is said beside the result, less than
 // usual or more, and its help.
 #define COMMAND_USUAL                                                                              \

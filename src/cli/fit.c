@@ -96,9 +96,9 @@ static size_t count_texts(char *const *texts)
 // What keeps the numbers from being possible; NULL: nothing.
 static const char *wrong_number(const fit_wishes *wishes)
 {
-    enum { MOST_THREADS = 1024, MOST_STARTS = 1000 };
-    if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
-        return "--jobs: expected a number from 1 to 1024";
+    enum { MOST_STARTS = 1000 };
+    if (command_wrong_jobs(wishes->threads))
+        return command_wrong_jobs(wishes->threads);
     if (wishes->starts < 1 || wishes->starts > MOST_STARTS)
         return "--starts: expected a number from 1 to 1000";
     if (wishes->log_count > MOST_LOGS)
@@ -181,15 +181,14 @@ int command_fit(const command *self, int argc, char **argv)
         COMMAND_STRICT(&wishes.strict),
         {"out", 'o', OPTION_TEXT, &wishes.folder,
          "Folder for fit.json, fitted.yaml and the state by which a fit continues", "DIR"},
-        {"jobs", 'j', OPTION_INTEGER, &wishes.threads,
-         "Number of launches computed in parallel (1)", "N"},
+        COMMAND_JOBS(&wishes.threads, "launches"),
         {"starts", '\0', OPTION_INTEGER, &wishes.starts,
          "Number of starts: the scenario's values, then random ones (4)", "N"},
         {"seed", '\0', OPTION_INTEGER, &wishes.seed, "Seed of the random starts (0)", "N"},
         {"plot", '\0', OPTION_TEXT, &wishes.picture,
          "Draw measured and fitted values and the intervals: FILE.svg, FILE.pdf or FILE.png",
          "FILE"},
-        {"json", '\0', OPTION_FLAG, &wishes.json, "Print as JSON, in full precision", NULL},
+        COMMAND_JSON(&wishes.json),
         COMMAND_USUAL};
     command_line line;
     int code = 0;

@@ -91,9 +91,6 @@ int command_modes(const command *self, int argc, char **argv)
 {
     char **sets = NULL;
     int json = 0;
-    const command_option options[] = {
-        COMMAND_SETS(&sets),
-        {"json", '\0', OPTION_FLAG, &json, "Print as JSON, in full precision", NULL},
-        COMMAND_USUAL};
+    const command_option options[] = {COMMAND_SETS(&sets), COMMAND_JSON(&json), COMMAND_USUAL};
     return command_on_model(self, argc, argv, options, &sets, print_all_modes, &json);
 }

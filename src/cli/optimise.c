@@ -55,17 +55,15 @@ static int optimise_model(const ld_model *model, void *data)
 
 int command_optimise(const command *self, int argc, char **argv)
 {
-    enum { MOST_THREADS = 1024 };
     optimise_wishes wishes = {.threads = 1};
     const command_option options[] = {
         COMMAND_SETS(&wishes.sets),
         COMMAND_STRICT(&wishes.strict),
         {"out", 'o', OPTION_TEXT, &wishes.folder,
          "Folder for optimise.json, optimised.yaml and the state by which it continues", "DIR"},
-        {"jobs", 'j', OPTION_INTEGER, &wishes.threads,
-         "Number of launches computed in parallel (1)", "N"},
+        COMMAND_JOBS(&wishes.threads, "launches"),
         {"plot", '\0', OPTION_TEXT, &wishes.plot, "Draw the course: .svg, .pdf or .png", "PICTURE"},
-        {"json", '\0', OPTION_FLAG, &wishes.json, "Print as JSON, in full precision", NULL},
+        COMMAND_JSON(&wishes.json),
         COMMAND_USUAL};
     command_line line;
     int code = 0;
@@ -74,8 +72,8 @@ int command_optimise(const command *self, int argc, char **argv)
     code = EXIT_INPUT;
     if (line.count != 1)
         command_complain("optimise requires %s; see launchdyn optimise --help", self->arguments);
-    else if (wishes.threads < 1 || wishes.threads > MOST_THREADS)
-        command_complain("--jobs: expected a number from 1 to 1024");
+    else if (command_wrong_jobs(wishes.threads))
+        command_complain("%s", command_wrong_jobs(wishes.threads));
     else
         code = command_on_file(line.word[0], wishes.sets, optimise_model, &wishes);
     options_end(&line);

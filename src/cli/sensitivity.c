@@ -71,23 +71,21 @@ static int differentiate(const ld_model *model, void *data)
 
 int command_sensitivity(const command *self, int argc, char **argv)
 {
-    enum { MOST_THREADS = 1024 };
     wishes asked = {.threads = 1};
     const command_option options[] = {
         COMMAND_SETS(&asked.sets),
         COMMAND_STRICT(&asked.strict),
         {"what", 'w', OPTION_TEXT, &asked.what, "Results in place of the usual ones", "NAME,..."},
-        {"jobs", 'j', OPTION_INTEGER, &asked.threads, "Number of launches computed in parallel (1)",
-         "N"},
-        {"json", '\0', OPTION_FLAG, &asked.json, "Print as JSON, in full precision", NULL},
+        COMMAND_JOBS(&asked.threads, "launches"),
+        COMMAND_JSON(&asked.json),
         COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (!command_line_read(&line, self, argc, argv, options, &code))
         return code;
     code = EXIT_INPUT;
-    if (asked.threads < 1 || asked.threads > MOST_THREADS)
-        command_complain("--jobs: expected a number from 1 to %d", MOST_THREADS);
+    if (command_wrong_jobs(asked.threads))
+        command_complain("%s", command_wrong_jobs(asked.threads));
     else if (read_keys(&asked, line.word + 1, line.count - (line.count > 0)))
         code = command_on_file(line.word[0], asked.sets, differentiate, &asked);
     options_end(&line);

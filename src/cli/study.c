@@ -283,7 +283,7 @@ static bool read_shard(const char *text, study_wishes *wishes)
 // What keeps these options from being those of a study to be run; NULL: nothing.
 static const char *wrong_to_run(const char *file, const char *again, const study_wishes *wishes)
 {
-    enum { MOST_THREADS = 1024, MOST_EXPIRY = 86400 };
+    enum { MOST_EXPIRY = 86400 };
     if (again && (file || wishes->run.sets))
         return "--again FOLDER repeats the study stored in FOLDER; it excludes other arguments and "
                "--set";
@@ -311,9 +311,7 @@ static const char *wrong_to_run(const char *file, const char *again, const study
         return "--expiry requires --join";
     if (wishes->join && (wishes->expiry < 0 || wishes->expiry > MOST_EXPIRY))
         return "--expiry: expected a number of seconds from 1 to 86400";
-    if (wishes->threads < 1 || wishes->threads > MOST_THREADS)
-        return "--jobs: expected a number from 1 to 1024";
-    return NULL;
+    return command_wrong_jobs(wishes->threads);
 }
 
 ld_index study_index_of(const char *word)
@@ -345,8 +343,7 @@ int command_study(const command *self, int argc, char **argv)
         STUDY_OPTIONS(&wishes),
         {"again", '\0', OPTION_TEXT, &again,
          "Repeat the study stored in FOLDER, bit for bit, in place of FILE", "FOLDER"},
-        {"jobs", 'j', OPTION_INTEGER, &wishes.threads, "Number of samples computed in parallel (1)",
-         "N"},
+        COMMAND_JOBS(&wishes.threads, "samples"),
         {"only", '\0', OPTION_INTEGER, &wishes.only,
          "Run sample N only, with its history in DIR/sample-N", "N"},
         {"shard", '\0', OPTION_TEXT, &shard, "Run only part I of N of the study; then merge DIR",
