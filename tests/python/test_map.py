@@ -197,7 +197,7 @@ class TestMap(Case):
         script = self.folder / "dask_study.py"
         script.write_text(DASK.format(examples=EXAMPLES))
         done = subprocess.run([sys.executable, "-B", script, self.folder], capture_output=True,
-                              text=True, timeout=500,
+                              text=True, timeout=3000,
                               env={**os.environ, "DASK_TEMPORARY_DIRECTORY": str(self.folder)})
         self.assertEqual(done.returncode, 0, done.stderr[-3000:])
         self.study = ld.Study.of(flights(10000))

@@ -63,6 +63,7 @@ export const rowNear = (times, time) =>
 export async function inBrowser(test, ...more) {
   const browser = await chromium.launch({
     executablePath: LD_BROWSER,
+    timeout: 0,
     args: ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--enable-unsafe-swiftshader", ...more],
   });
   try {
