@@ -1,7 +1,5 @@
 // Fits of a launcher whose keys are known: results come from its own launch, with noise.
-#include "support/check.h"
-
-#include <stdlib.h>
+#include "support/found_fit.h"
 
 #include "base/random.h"
 #include "launchdyn/launchdyn.h"
@@ -10,7 +8,7 @@
 #include "support/coverage.h"
 #include "support/scratch.h"
 
-enum { RESULTS = 4, MOST_ROWS = 64, MOST_KEYS = 4 };
+enum { RESULTS = 4, MOST_ROWS = 64 };
 
 static const char *const names[RESULTS] = {"t_front", "t_middle", "t_rear", "exit_speed"};
 
@@ -94,45 +92,10 @@ static const char *write_launches(const double value[RESULTS], int set, int rows
     return file;
 }
 
-// What fit.json says of the keys.
-typedef struct found {
-    double value[MOST_KEYS], deviation[MOST_KEYS], low[MOST_KEYS], high[MOST_KEYS], chance;
-} found;
-
-static double number_after(const char **text, const char *name)
-{
-    char quoted[64];
-    snprintf(quoted, sizeof quoted, "\"%s\": ", name);
-    const char *at = strstr(*text, quoted);
-    assert_non_null(at);
-    *text = at + strlen(quoted);
-    return strncmp(*text, "null", 4) == 0 ? NAN : strtod(*text, NULL);
-}
-
-static char *json_of(const ld_fit *fit)
-{
-    enum { MOST = 1 << 16 };
-    char *text = calloc(1, MOST);
-    assert_non_null(text);
-    FILE *stream = fmemopen(text, MOST, "w");
-    assert_non_null(stream);
-    ld_fit_print_json(fit, stream);
-    assert_int_equal(fclose(stream), 0);
-    return text;
-}
-
 static void read_found(const ld_fit *fit, size_t count, found *of)
 {
     char *text = json_of(fit);
-    const char *at = text;
-    of->chance = number_after(&at, "p");
-    at = strstr(at, "\"keys\"");
-    for (size_t i = 0; i < count; i++) {
-        of->value[i] = number_after(&at, "value");
-        of->deviation[i] = number_after(&at, "deviation");
-        of->low[i] = number_after(&at, "low");
-        of->high[i] = number_after(&at, "high");
-    }
+    read_keys(text, count, of);
     free(text);
 }
 
@@ -287,16 +250,6 @@ static void test_prior(void **state)
 }
 
 // ---- interruption, jobs
-
-typedef struct patience {
-    int left; // answers until it stops
-} patience;
-
-static bool wait_once_more(void *self)
-{
-    patience *left = self;
-    return left->left-- > 0;
-}
 
 static void test_continues(void **state)
 {

@@ -1,8 +1,6 @@
 // Fits of a launcher whose keys are known to logs of its own launch: an accelerometer and a gyro
 // with noise, white or correlated, on a clock of their own.
-#include "support/check.h"
-
-#include <stdlib.h>
+#include "support/found_fit.h"
 
 #include "base/random.h"
 #include "fit/fit_log.h"
@@ -117,46 +115,10 @@ static void write_log(const felt *all, int set, int noisy)
 
 // ---- what is found
 
-typedef struct found {
-    double value[ALL_KEYS], deviation[ALL_KEYS], low[ALL_KEYS], high[ALL_KEYS];
-    double chance, correlation[2], offset;
-} found;
-
-static double number_after(const char **text, const char *name)
-{
-    char quoted[64];
-    snprintf(quoted, sizeof quoted, "\"%s\": ", name);
-    const char *at = strstr(*text, quoted);
-    assert_non_null(at);
-    *text = at + strlen(quoted);
-    return strncmp(*text, "null", 4) == 0 ? NAN : strtod(*text, NULL);
-}
-
-static char *json_of(const ld_fit *fit)
-{
-    enum { MOST = 1 << 18 };
-    char *text = calloc(1, MOST);
-    assert_non_null(text);
-    FILE *stream = fmemopen(text, MOST, "w");
-    assert_non_null(stream);
-    ld_fit_print_json(fit, stream);
-    assert_int_equal(fclose(stream), 0);
-    return text;
-}
-
 static void read_found(const ld_fit *fit, found *of)
 {
     char *text = json_of(fit);
-    const char *at = text;
-    of->chance = number_after(&at, "p");
-    at = strstr(at, "\"keys\"");
-    for (size_t i = 0; i < ALL_KEYS; i++) {
-        of->value[i] = number_after(&at, "value");
-        of->deviation[i] = number_after(&at, "deviation");
-        of->low[i] = number_after(&at, "low");
-        of->high[i] = number_after(&at, "high");
-    }
-    at = strstr(at, "\"logs\"");
+    const char *at = strstr(read_keys(text, ALL_KEYS, of), "\"logs\"");
     of->offset = number_after(&at, "offset");
     for (int k = 0; k < 2; k++)
         of->correlation[k] = number_after(&at, "correlation");
@@ -392,16 +354,6 @@ static void test_correlation(void **state)
 }
 
 // ---- interruption, jobs
-
-typedef struct patience {
-    int left; // answers until it stops
-} patience;
-
-static bool wait_once_more(void *self)
-{
-    patience *left = self;
-    return left->left-- > 0;
-}
 
 static void test_continues(void **state)
 {
