@@ -82,6 +82,7 @@
     if (result.values.length > 0) showValues(result.values);
     document.documentElement.dataset.status = result.status;
     if (!result.data) {
+      took.textContent = "";
       document.documentElement.dataset.run = result.number;
       return;
     }
@@ -154,6 +155,7 @@
     asked = "";
     kept = new Set();
     editor.value = text;
+    choice.value = examples.choices.find(([name]) => examples.files[name] === text)?.[0] ?? "";
     share();
     request(true);
   }

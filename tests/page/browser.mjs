@@ -87,7 +87,8 @@ async function checkScenarios(browser) {
   await after(page, () => page.click("#launch"));
   const shown = await page.textContent("#messages");
   check("an error has its place, what was found and what is expected", /^scenario\.yaml:\d+:\d+: error: rocket\.lock\.release_force: /.test(shown), shown);
-  check("what was shown stays", (await page.$$(".figure")).length > 5);
+  check("what was shown stays, without a time", (await page.$$(".figure")).length > 5 && await page.textContent("#took") === "");
+  check("it is none of the examples", await page.inputValue("#example") === "");
   await after(page, () => page.setInputFiles("input[type=file]", [example("parachutes.yaml"), example("reference-aero.csv")]));
   check("then there is none", await page.isHidden("#messages"));
   const flown = await page.evaluate(() => JSON.parse(window.launchdyn.result.summary).rockets[0].flight.t_apogee);
