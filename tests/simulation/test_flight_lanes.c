@@ -11,7 +11,7 @@
 #include "scenario/scenario.h"
 #include "state/simulation.h"
 
-enum { FLIGHTS = 11, MOST_SETTINGS = 6 };
+enum { FLIGHTS = 11, MOST_SETTINGS = 7 };
 
 // The air by surface, four of them with slopes, to which more may be added.
 #define SURFACES                                                                                   \
@@ -89,6 +89,12 @@ static const char *const options[][MOST_SETTINGS] = {
      "rocket.eccentricity=0.3 -0.2 mm", "environment.earth=round"},
     {MASSES},
     {MASSES, "rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
+    {MASSES, SURFACES "]}",
+     "environment={earth: wgs84, site: {latitude: -33 deg}, atmosphere: {profile: [[0 m, 100 kPa, "
+     "290 K], [300 m, 96.5 kPa, 287 K], [2 km, 78.5 kPa, 280 K]]}, wind: {axes: geographic, "
+     "profile: [[0 m, 1 m/s, 2 m/s], [400 m, 5 m/s, -3 m/s], [900 m, 9 m/s, 4 m/s]]}}",
+     "rocket.parachutes=[{name: drogue, drag_area: 0.5 m2, trigger: apogee}, {name: main, "
+     "drag_area: 8 m2, trigger: height, height: 300 m, lag: 1 s}]"},
     {"rocket.air_brakes={over_time: [[3 s, 0 m2], [3.5 s, 0.02 m2], [8 s, 0.02 m2]]}"},
     {"rocket.air_brakes={over_height: [[100 m, 0 m2], [300 m, 0.02 m2]], scale: 0.9}",
      "environment={earth: wgs84, ground: -5 m, site: {latitude: 45 deg}, wind: {speed: 4 m/s, "
