@@ -84,15 +84,15 @@ LD_INLINE void modal_load(const int lanes, const tube_system *self, const launch
     q->planes_differ = self->z == PLANE_Z;
 }
 
-// The sums of a matrix's rows [nb], in lanes, by q and by q_dot; two lanes at once, of which the
-// last may be padding.
-LD_INLINE void sum_rows(const int lanes, int nb, const double row[LD_NB][LD_NB], const double *q,
-                        const double *q_dot, double *to, double *to_dot)
+// The sums of the rows of a plane's G by q and by q_dot; two lanes at once, of which the last may
+// be padding.
+LD_INLINE void sum_rows(const flexible_tube *tube, int plane, const double *q, const double *q_dot,
+                        double *to, double *to_dot)
 {
-    for (int k = 0; k < 4 * lanes; k += 8) {
+    for (int k = 0; k < tube->nbp; k += 8) {
         v2d sum[8] = {{0}};
-        for (int j = 0; j < nb; j++) {
-            const v2d *shape = v2d_lanes_of(&row[j][k]);
+        for (int j = 0; j < tube->nb; j++) {
+            const v2d *shape = v2d_lanes_of(&tube->overlap->G[plane][j][k]);
             v2d by = v2d_all(q[j]), by_dot = v2d_all(q_dot[j]);
             for (int i = 0; i < 4; i++) {
                 sum[i] += shape[i] * by;
@@ -104,11 +104,10 @@ LD_INLINE void sum_rows(const int lanes, int nb, const double row[LD_NB][LD_NB],
     }
 }
 
-LD_OUTLINE void modal_overlap(const int lanes, const flexible_tube *tube, modal_state *q)
+LD_OUTLINE void modal_overlap(const flexible_tube *tube, modal_state *q)
 {
-    const tube_overlap *overlap = tube->overlap;
-    sum_rows(lanes, tube->nb, overlap->G[PLANE_Z], q->z, q->z_dot, q->z_on_y, q->z_dot_on_y);
-    sum_rows(lanes, tube->nb, overlap->G[PLANE_Y], q->y, q->y_dot, q->y_on_z, q->y_dot_on_z);
+    sum_rows(tube, PLANE_Z, q->z, q->z_dot, q->z_on_y, q->z_dot_on_y);
+    sum_rows(tube, PLANE_Y, q->y, q->y_dot, q->y_on_z, q->y_dot_on_z);
 }
 
 // Products of the fixed rows of z, where these are its own.
@@ -150,7 +149,7 @@ LD_INLINE void tube_load(const int lanes, const tube_system *self, const launchi
     modal_state *q = &tube->modal;
     tube_load_motion(lanes, self, at, state, tube);
     if (__builtin_expect(q->planes_differ, 0))
-        modal_overlap(lanes, &self->flexible, q);
+        modal_overlap(&self->flexible, q);
     // the fixed rows (supports, ct, c) times the four vectors of modal coordinates and speeds
     for (int r = 0; r < self->row_lanes; r++) {
         v4d y = v4d_all(0), z = y, y_dot = y, z_dot = y;
