@@ -124,7 +124,8 @@ typedef struct problem {
     carried_directions carried; // what they do
     double accepted;            // [m/s2] residual of a state at rest
     double h;                   // [m, rad, ...] step of the differences
-    double *jacobian;           // [count + 1][count + 1] of Newton's method, by columns
+    double *jacobian;           // [count + 1][count + 1] of Newton's method, factored, and its
+    lapack_int *pivot;          // row exchanges
     const base_frame *going;    // the base as it moves where it is not held still: through the air
 } problem;
 
@@ -293,14 +294,13 @@ static double norm(int n, const double *r)
     return sqrt(sum);
 }
 
-// One Newton step by central differences: `step` := -J^-1 r.
-static int newton_step(const problem *the, const double *y, const double *r, double *step)
+// The Jacobian at y by central differences, factored.
+static int find_jacobian(const problem *the, const double *y)
 {
     int n = the->count;
     double h = the->h;
     double *J = the->jacobian, plus[MAX_FREEDOMS], minus[MAX_FREEDOMS];
     double trial[LD_MAX_STATES];
-    lapack_int pivot[MAX_FREEDOMS];
     size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
     for (int j = 0; j < n; j++) {
         memcpy(trial, y, size);
@@ -312,9 +312,20 @@ static int newton_step(const problem *the, const double *y, const double *r, dou
             return -1;
         for (int i = 0; i < n; i++)
             J[i + n * j] = (plus[i] - minus[i]) / (2 * h);
-        step[j] = -r[j];
     }
-    return LAPACKE_dgesv(LAPACK_COL_MAJOR, n, 1, J, n, pivot, step, n);
+    return LAPACKE_dgetrf(LAPACK_COL_MAJOR, n, n, J, n, the->pivot);
+}
+
+// y := y - share J^-1 r
+static void take_step(const problem *the, const double *r, double share, double *y)
+{
+    int n = the->count;
+    double step[MAX_FREEDOMS];
+    for (int j = 0; j < n; j++)
+        step[j] = -r[j];
+    LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'N', n, 1, the->jacobian, n, the->pivot, step, n);
+    for (int j = 0; j < n; j++)
+        simulation_displace(the->self, the->first + j, share * step[j], y);
 }
 
 // Room for the Jacobian of a problem, to be freed: too large for a stack. It may get a freedom
@@ -322,76 +333,108 @@ static int newton_step(const problem *the, const double *y, const double *r, dou
 static ld_status make_room(problem *the, ld_error *error)
 {
     size_t most = (size_t)the->count + 1;
-    the->jacobian = malloc(most * most * sizeof *the->jacobian);
-    return the->jacobian ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for the equilibrium");
+    the->jacobian = malloc(most * (most * sizeof *the->jacobian + sizeof *the->pivot));
+    if (!the->jacobian)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the equilibrium");
+    the->pivot = (lapack_int *)(the->jacobian + most * most);
+    return LD_OK;
+}
+
+// A step that makes the residual so much smaller shows that its Jacobian serves for the next one.
+static const double SERVES = 0.01;
+
+// A state on the way of Newton's method, what is left there, and its norm.
+typedef struct waypoint {
+    double y[LD_MAX_STATES], r[MAX_FREEDOMS], size;
+} waypoint;
+
+static bool reach(const problem *the, waypoint *at)
+{
+    if (residual(the, at->y, at->r))
+        return false;
+    at->size = norm(the->count, at->r);
+    return true;
+}
+
+// The first of the halved steps that makes the residual smaller; false: there is none.
+static bool step_down(const problem *the, const waypoint *from, waypoint *to)
+{
+    double share = 1;
+    for (int halving = 0; halving < 25; halving++, share *= 0.5) {
+        memcpy(to->y, from->y, (size_t)the->self->launcher.state_count * sizeof(double));
+        take_step(the, from->r, share, to->y);
+        if (reach(the, to) && to->size < from->size)
+            return true;
+    }
+    return false;
 }
 
 // Newton with halved steps from the guess in y. Ends where no step makes the residual smaller.
 static double newton(const problem *the, double *y)
 {
-    int n = the->count;
     size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
-    double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], r_trial[MAX_FREEDOMS];
-    if (residual(the, y, r))
+    waypoint at, next;
+    bool rounding = false;
+    memcpy(at.y, y, size);
+    if (!reach(the, &at))
         return INFINITY;
-    double now = norm(n, r);
-    for (int iteration = 0; iteration < 60; iteration++) {
-        if (newton_step(the, y, r, step))
+    for (int iteration = 0; iteration < 60 && !rounding; iteration++) {
+        if (find_jacobian(the, at.y) || !step_down(the, &at, &next))
             break;
-        double share = 1, next = INFINITY;
-        for (int halving = 0; halving < 25; halving++, share *= 0.5) {
-            memcpy(trial, y, size);
-            for (int j = 0; j < n; j++)
-                simulation_displace(the->self, the->first + j, share * step[j], trial);
-            if (residual(the, trial, r_trial) == 0 && (next = norm(n, r_trial)) < now)
-                break;
-        }
-        if (!(next < now))
-            break;
-        bool rounding = now < 1e-6 && next > 0.1 * now;
-        memcpy(y, trial, size);
-        memcpy(r, r_trial, sizeof r);
-        now = next;
-        if (rounding)
-            break;
+        rounding = at.size < 1e-6 && next.size > 0.1 * at.size;
+        at = next;
     }
-    return now;
+    memcpy(y, at.y, size);
+    return at.size;
 }
 
-// Residual [m/s2] from which no step finds back: what kilometres of penetration would give.
-static double hopeless_residual(const launch_state *self)
+// Whether the rocket stands so far [m, rad] from its place in the guide.
+static bool is_beyond(const problem *the, const double *y, double widest);
+
+enum { CIRCLE = 4 }; // residuals ago
+
+// Whether Newton's method has come back to a residual; remembers that of now.
+static bool goes_round(int iteration, double now, double before[CIRCLE])
 {
-    const double deepest = 3e3; // [m]
-    return deepest * self->rocket->contact.stiffness / self->motor->full.m;
+    bool circles = false;
+    for (int i = 0; i < CIRCLE; i++)
+        circles |= fabs(now - before[i]) < 1e-9 * now;
+    before[iteration % CIRCLE] = now;
+    return circles;
 }
 
 // Newton's method with whole steps: where surfaces are touched and released of it finds which of
-// them carry, as halved steps, which stop at the kinks, do not. Ends, too, where steps go off or in
-// a circle. Leaves the best state in y.
-static double newton_whole(const problem *the, double *y)
+// them carry, as halved steps, which stop at the kinks, do not. A Jacobian is kept while it serves.
+// Ends, too, where steps go off or in a circle. Leaves the best state in y. `gone`: they went off.
+static double newton_whole(const problem *the, double *y, bool *gone)
 {
-    enum { CIRCLE = 4 }; // residuals ago
-    int n = the->count;
+    const double far = 10; // [m, rad]
     size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
-    double r[MAX_FREEDOMS], step[MAX_FREEDOMS], trial[LD_MAX_STATES], best = INFINITY;
-    double before[CIRCLE] = {0}, hopeless = hopeless_residual(the->self);
-    memcpy(trial, y, size);
-    for (int iteration = 0; iteration < 30; iteration++) {
-        if (residual(the, trial, r))
-            break;
-        double now = norm(n, r);
-        bool rounding = now > 0.1 * best && best < 1e-6, circles = false;
-        for (int i = 0; i < CIRCLE; i++)
-            circles |= fabs(now - before[i]) < 1e-9 * now;
-        before[iteration % CIRCLE] = now;
-        if (now < best) {
-            best = now;
-            memcpy(y, trial, size);
+    double best = INFINITY, former[CIRCLE] = {0};
+    bool kept = false;
+    waypoint at, before;
+    *gone = false;
+    memcpy(at.y, y, size);
+    before.size = INFINITY;
+    for (int iteration = 0; iteration < 30 && reach(the, &at); iteration++) {
+        bool rounding = at.size > 0.1 * best && best < 1e-6;
+        bool serves = iteration > 0 && at.size < SERVES * before.size;
+        bool circles = goes_round(iteration, at.size, former);
+        if (at.size < best) {
+            best = at.size;
+            memcpy(y, at.y, size);
         }
-        if (rounding || circles || now > hopeless || newton_step(the, trial, r, step))
+        if (rounding || circles)
             break;
-        for (int j = 0; j < n; j++)
-            simulation_displace(the->self, the->first + j, step[j], trial);
+        if (kept && !serves)
+            at = before;
+        else
+            *gone = is_beyond(the, at.y, far);
+        kept = serves;
+        if (*gone || (!kept && find_jacobian(the, at.y)))
+            break;
+        before = at;
+        take_step(the, at.r, 1, at.y);
     }
     return best;
 }
@@ -687,13 +730,15 @@ static void find_carried(problem *the, const double *y)
 }
 
 // newton_whole() from the guess in `from`, with finer and finer differences: a surface that carries
-// little is pressed in by little.
+// little is pressed in by little. From far away they bring nothing back.
 static double newton_fine(problem *the, const double *from, double *y)
 {
     double reached = INFINITY;
-    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= the->accepted); the->h *= 0.1) {
+    bool gone = false;
+    for (the->h = DIFFERENCE; the->h > 1e-12 && !(reached <= the->accepted) && !gone;
+         the->h *= 0.1) {
         memcpy(y, from, (size_t)the->self->launcher.state_count * sizeof(double));
-        reached = newton_whole(the, y);
+        reached = newton_whole(the, y, &gone);
     }
     return reached;
 }
@@ -711,9 +756,8 @@ static double in_common(const rocket_mass *rocket, const double a[SHOE_FREEDOMS]
 
 // Whether a rocket on surfaces stands so far from its centred place that they do not hold it. Round
 // ones do not feel its roll.
-static bool is_away(const problem *the, const double *y)
+static bool is_beyond(const problem *the, const double *y, double widest)
 {
-    const double widest = 0.5; // [m, rad]
     int count = the->self->launcher.launching.surfaces.flat ? SHOE_FREEDOMS : SHOE_FREEDOMS - 1;
     double off[SHOE_FREEDOMS];
     problem centred = *the;
@@ -724,6 +768,11 @@ static bool is_away(const problem *the, const double *y)
         if (fabs(off[i]) > widest)
             return true;
     return false;
+}
+
+static bool is_away(const problem *the, const double *y)
+{
+    return is_beyond(the, y, 0.5);
 }
 
 // Whether the rocket has gone further than a small way, or once round.
@@ -813,8 +862,11 @@ static double find_beside(problem *the, const double *start, double depth, const
     find_carried(the, found);
     for (int i = 0; i < 2; i++) {
         reached = newton_fine(the, found, y);
-        for (int again = 0; again < 3; again++) // each ends at the first small gain
+        double before = INFINITY;
+        for (int again = 0; again < 3 && reached < 0.9 * before; again++) {
+            before = reached; // each ends at the first small gain
             reached = fmin(reached, newton(the, y));
+        }
         if (is_at_rest(the, y, reached))
             break;
         memcpy(the->rest, found + self->launcher.launching.layout.x + X_Y, sizeof the->rest);
@@ -1048,13 +1100,14 @@ static ld_status settle_base(const launch_state *self, double t, const launching
         return status;
     problem dead = {
         .self = self, .t = t, .phase = phase, .first = first, .dead = true, .h = DIFFERENCE};
+    dead.accepted = accepted_residual(self);
     dead.count = simulation_freedoms(self) - first;
     status = make_room(&dead, error);
     if (status)
         return status;
     double reached = newton(&dead, y);
     free(dead.jacobian);
-    if (reached <= accepted_residual(self))
+    if (reached <= dead.accepted)
         return LD_OK;
     return dynamics->report_no_rest(base, reached, error);
 }
