@@ -1,5 +1,6 @@
 // A model as a scenario in SI units: every key, in the order of the tables.
 #include <locale.h>
+#include <stdlib.h>
 
 #include "base/printed.h"
 #include "model/fields/factor.h"
@@ -43,16 +44,27 @@ void scenario_print_text(FILE *stream, const char *text)
     fputc('"', stream);
 }
 
-static void print_choice(FILE *stream, const field_row *f, const void *base)
+static const char *chosen_word(const field_row *f, const void *base)
 {
     int value = f->words[0].value;
     if (f->offset != FIELD_NOWHERE)
         memcpy(&value, field_at_const(base, f), sizeof value);
-    const field_word *word = field_word_of(f->words, value);
-    if (word->name[0])
-        fprintf(stream, "%s", word->name);
+    return field_word_of(f->words, value)->name;
+}
+
+// That stands in place of a word.
+static const double *chosen_number(const field_row *f, const void *base)
+{
+    return (const double *)((const char *)base + f->other);
+}
+
+static void print_choice(FILE *stream, const field_row *f, const void *base)
+{
+    const char *word = chosen_word(f, base);
+    if (word[0])
+        fprintf(stream, "%s", word);
     else
-        print_number(stream, (const double *)((const char *)base + f->other), 1, f->unit);
+        print_number(stream, chosen_number(f, base), 1, f->unit);
 }
 
 static void print_integers(FILE *stream, const int *values, int count)
@@ -144,6 +156,8 @@ static bool has_value(const field_row *f, const void *base)
 {
     if (f->kind == FIELD_NUMBER || f->kind == FIELD_LIMIT)
         return !isnan(*(const double *)field_at_const(base, f));
+    if (f->kind == FIELD_CHOICE && f->unit)
+        return chosen_word(f, base)[0] || !isnan(*chosen_number(f, base));
     if (f->kind == FIELD_WORD || f->kind == FIELD_QUANTITY)
         return f->required || *(const char *)field_at_const(base, f);
     if (f->kind == FIELD_WORDS)
@@ -484,10 +498,34 @@ static void print_block(FILE *stream, const field_block *block, const void *base
     }
 }
 
+// A vector is printed whole or not at all: what one of its numbers follows from is kept.
+static void keep_whole(double to[3], const double from[3])
+{
+    bool given = !isnan(to[0]) || !isnan(to[1]) || !isnan(to[2]);
+    for (int i = 0; i < 3; i++)
+        to[i] = given ? from[i] : NAN;
+}
+
+// A copy without the numbers that follow from others, where samples change those; to be freed
+// alone. NULL: there is nothing to leave out, or no memory.
+static ld_model *without_completed(const ld_model *model)
+{
+    ld_model *copy = model->scatter.factor_count > 0 ? malloc(sizeof *copy) : NULL;
+    if (!copy)
+        return NULL;
+    *copy = *model;
+    model_forget(copy);
+    keep_whole(copy->rocket.empty.center, model->rocket.empty.center);
+    keep_whole(copy->rocket.empty.inertia, model->rocket.empty.inertia);
+    return copy;
+}
+
 void ld_model_print(const ld_model *model, FILE *stream)
 {
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
-    print_block(stream, &scenario_block, model, 0);
+    ld_model *copy = without_completed(model);
+    print_block(stream, &scenario_block, copy ? copy : model, 0);
+    free(copy);
     uselocale(before);
     freelocale(plain);
 }

@@ -216,6 +216,19 @@ class TestStudy(Case):
         again = ld.Scenario.from_text(third.to_yaml(), {"title": "again"})
         self.assertEqual(again.run().summary["rocket.1.range"], data["range"][2])
 
+    def test_written_study_has_the_same_samples(self):
+        # propellant, time to leave, ground, the empty rocket follow from what is sampled
+        study = scattered(3, **{"rocket.empty": None, "scatter.factors": {
+            "rocket.center.x": {"normal": "1 cm"}, "rocket.motor.time_scale": {"normal": 0.01}}})
+        written = ld.Scenario.from_text(study.to_yaml())
+        self.assertEqual(written.to_yaml(), study.to_yaml())
+        for number in 1, 2:
+            samples = [ld.Study.of(of).sample(number) for of in (study, written)]
+            for key in "rocket.empty.center.x", "run.stuck_time", "rocket.propellant":
+                self.assertEqual(*(sample[key] for sample in samples))
+            self.assertNotEqual(samples[0]["run.stuck_time"], study["run.stuck_time"])
+            self.assertEqual(samples[0]["rocket.empty.center.x"], samples[0]["rocket.center.x"])
+
     def test_points_beside_each_other(self):
         with ld.Study.of(scattered(6, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
                 self.folder / "study") as data:
