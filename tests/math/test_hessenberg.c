@@ -2,7 +2,9 @@
 #include "math/matrices/lapack.h"
 #include <complex.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "math/matrices/general_eigen.h"
 #include "math/matrices/hessenberg.h"
 #include "support/check.h"
 
@@ -77,10 +79,64 @@ static void an_eigenvalue_is_told(void **state)
     hessenberg_free(&swing);
 }
 
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// Eigenvalues alone against those that come with their vectors, and against the traces of A and
+// A^2: small and large matrices, some of whose columns and rows are empty.
+static void eigenvalues_alone(void **state)
+{
+    (void)state;
+    static const int sizes[] = {1, 2, 3, 37, 64, 151, 170};
+    enum { MOST = 170 };
+    static double A[MOST * MOST], B[MOST * MOST], vectors[MOST * MOST];
+    unsigned seed = 5;
+    double worst[3] = {0};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        int n = sizes[k];
+        double re[MOST], im[MOST], with[MOST], unused[MOST], size = 0, trace = 0, square = 0;
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < n; i++) {
+                bool empty = n > 3 && (j == n / 2 || i == n / 3);
+                A[i + n * j] = empty ? 0 : drawn(&seed) * pow(10, i % 5 - j % 5);
+            }
+        for (int j = 0; j < n; j++) {
+            trace += A[j + n * j];
+            for (int i = 0; i < n; i++)
+                square += A[i + n * j] * A[j + n * i];
+        }
+        memcpy(B, A, sizeof B);
+        assert_int_equal(general_eigen(n, B, with, unused, NULL, vectors), 0);
+        memcpy(B, A, sizeof B);
+        assert_int_equal(general_eigenvalues(n, B, re, im), 0);
+        for (int i = 0; i < n; i++) {
+            size = fmax(size, hypot(re[i], im[i]));
+            trace -= re[i];
+            square -= re[i] * re[i] - im[i] * im[i];
+        }
+        qsort(re, (size_t)n, sizeof *re, ascending);
+        qsort(with, (size_t)n, sizeof *with, ascending);
+        for (int i = 0; i < n; i++)
+            worst[0] = fmax(worst[0], fabs(re[i] - with[i]) / size);
+        worst[1] = fmax(worst[1], fabs(trace) / size);
+        worst[2] = fmax(worst[2], fabs(square) / (size * size));
+    }
+    CHECK_BELOW("real parts apart, of the largest", worst[0], 5e-14);
+    CHECK_BELOW("trace", worst[1], 5e-14);
+    CHECK_BELOW("trace of the square", worst[2], 1e-13);
+    A[0] = NAN;
+    double re[MOST], im[MOST];
+    assert_true(general_eigenvalues(2, A, re, im) != 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions_are_those_of_the_whole),
+        cmocka_unit_test(eigenvalues_alone),
         cmocka_unit_test(an_eigenvalue_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
