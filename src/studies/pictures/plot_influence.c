@@ -115,9 +115,12 @@ static void write_texts(const bar_page *self, const study_point *point, const st
 {
     const influence_kind kind = influence_kind_of(self->data);
     const study_unit unit = study_result_unit(result->name, result->unit);
+    const size_t fits = 80;
     char said[INFLUENCE_TEXT] = "";
     if (kind == INFLUENCE_INDICES)
         influence_together(self->list, count, said);
+    if (strlen(said) > fits) // the bars show which
+        snprintf(said, sizeof said, "factors whose total exceeds the first order act with others");
     snprintf(held->title, TITLE, "%.200s%s%s", result->name, *said ? ": " : "", said);
     add_point(self->data, point, held->title);
     if (kind == INFLUENCE_EFFECTS)
