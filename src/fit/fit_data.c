@@ -424,9 +424,12 @@ static ld_status average(row_reader *self)
 {
     size_t n = (size_t)self->data->results;
     double *sum = calloc(n * n, sizeof *sum), *weight = calloc(n * n, sizeof *weight);
-    ld_status status = sum && weight ? LD_OK : no_memory(self->error);
-    for (size_t c = 0; c < self->data->launches && !status; c++)
-        status = average_rows(self, c, sum, weight);
+    ld_status status = LD_OK;
+    if (!sum || !weight)
+        status = no_memory(self->error);
+    else
+        for (size_t c = 0; c < self->data->launches && !status; c++)
+            status = average_rows(self, c, sum, weight);
     free(sum);
     free(weight);
     if (!status)
