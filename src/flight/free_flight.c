@@ -738,15 +738,14 @@ static void pass_stop(flight_run *run)
     watch_acceleration(run); // beyond the corner, too
 }
 
-// Whether the last step, of which flight_watch has said nothing, ended at a corner of thrust,
-// masses, wind or brakes, and nothing else is asked of it.
+// Whether the last step, of which flight_watch has said nothing, ended at its stop within the
+// flight, and nothing else is asked of it.
 static bool is_plain_stop(const flight_run *run)
 {
     const dormand_prince_numbers *step = &run->steps.step;
     double t = step->t;
     return step->outcome == DORMAND_PRINCE_DONE && t == step->t_stop && !run->job->row &&
-           run->job->measure->count == 0 && t < next_opening(run) && t < run->t_limit &&
-           t < run->job->t_end;
+           run->job->measure->count == 0 && t < run->t_limit && t < run->job->t_end;
 }
 
 ld_status flight_run_examine(flight_run *run, bool seen)
