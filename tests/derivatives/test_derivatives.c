@@ -214,7 +214,7 @@ static void differences_of_order_6(void **state)
                                          1,
                                          1e-3,
                                          {"exit_speed", "pitch_rate"},
-                                         {1e-4, 4e-4}}};
+                                         {1e-4, 3e-4}}};
 #undef HELD
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const case_of_key *one = &cases[i];
