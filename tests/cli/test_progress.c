@@ -3,8 +3,19 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
+// A clock that stands, however long a busy machine takes.
+static int stopped_clock(clockid_t clock, struct timespec *time)
+{
+    (void)clock;
+    *time = (struct timespec){.tv_sec = 1000};
+    return 0;
+}
+
+#define clock_gettime stopped_clock
 #include "cli/progress.c"
+#undef clock_gettime
 #include "support/scratch.h"
 
 // What is printed to stderr from here on, to be read and freed.
