@@ -34,7 +34,8 @@ static double sum_of_squares(const double *value, int count)
 ld_status fit_point_compute(const fit_problem *problem, fit_point *point, ld_error *error)
 {
     int rows = fit_rows(problem);
-    double *row = point->residual ? point->residual : calloc((size_t)rows, sizeof *row);
+    double *own = point->residual ? NULL : calloc((size_t)rows, sizeof *own);
+    double *row = own ? own : point->residual;
     if (!row)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the residuals");
     ld_status status = problem->evaluate(problem->self, 1, point->p, row, &point->there, error);
@@ -42,8 +43,7 @@ ld_status fit_point_compute(const fit_problem *problem, fit_point *point, ld_err
         fill_priors(problem, point->p, row);
         point->chi2 = sum_of_squares(row, rows);
     }
-    if (row != point->residual)
-        free(row);
+    free(own);
     return status;
 }
 
