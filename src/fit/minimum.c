@@ -225,9 +225,12 @@ static ld_status refine(const fit_problem *problem, fit_minimum *minimum, ld_err
     enum { TIMES = 2 };
     size_t size = (size_t)fit_rows(problem) * (size_t)problem->keys;
     double *jacobian = calloc(size, sizeof *jacobian), *matrix = calloc(size, sizeof *matrix);
-    ld_status status = jacobian && matrix
-                           ? fit_point_compute(problem, &minimum->best, error)
-                           : ld_fail(error, LD_ERR_MEMORY, "no memory for the derivatives");
+    if (!jacobian || !matrix) {
+        free(jacobian);
+        free(matrix);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the derivatives");
+    }
+    ld_status status = fit_point_compute(problem, &minimum->best, error);
     for (int i = 0; i < problem->keys; i++)
         minimum->step[i] = first_step;
     problem->stage(problem->self, "covariance", minimum->best.chi2);

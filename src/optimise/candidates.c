@@ -309,7 +309,9 @@ ld_status candidates_evaluate(void *user, int count, const double *points, doubl
     size_t numbers = optimise_numbers(of);
     int row = 1 + limit_count(of);
     double *number = calloc((size_t)count * numbers + 1, sizeof *number);
-    ld_status status = number && make_room(of, count) ? LD_OK : no_memory(error);
+    if (!number)
+        return no_memory(error);
+    ld_status status = make_room(of, count) ? LD_OK : no_memory(error);
     if (!status)
         status = find_numbers(self, &(point_set){false, count, points, number, there}, error);
     for (int i = 0; i < count && !status; i++) {
