@@ -168,8 +168,8 @@ bool ld_model_has_vehicle(const ld_model *model);
 const char *ld_model_guide(const ld_model *model);
 
 /// Prints what was understood, every key with its value in SI, as YAML that can be read again. With
-/// `scatter` numbers that follow from others by default are left out, so that samples of the text
-/// are those of the model.
+/// `scatter` or `sweep` numbers that follow from others by default are left out, so that samples of
+/// the text are those of the model.
 void ld_model_print(const ld_model *model, FILE *stream);
 
 /// Describes in words what carries, guides, holds and drives the rocket: some lines that begin with

@@ -510,7 +510,8 @@ static void keep_whole(double to[3], const double from[3])
 // alone. NULL: there is nothing to leave out, or no memory.
 static ld_model *without_completed(const ld_model *model)
 {
-    ld_model *copy = model->scatter.factor_count > 0 ? malloc(sizeof *copy) : NULL;
+    bool changes = model->scatter.factor_count > 0 || model->sweep_count > 0;
+    ld_model *copy = changes ? malloc(sizeof *copy) : NULL;
     if (!copy)
         return NULL;
     *copy = *model;

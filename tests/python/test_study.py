@@ -229,6 +229,14 @@ class TestStudy(Case):
             self.assertNotEqual(samples[0]["run.stuck_time"], study["run.stuck_time"])
             self.assertEqual(samples[0]["rocket.empty.center.x"], samples[0]["rocket.center.x"])
 
+    def test_written_sweep_has_the_same_samples(self):
+        swept = ld.Scenario.read("examples/fixed.yaml", {"sweep": {"rocket.motor.time_scale": [1, 1.5]}})
+        written = ld.Scenario.from_text(swept.to_yaml())
+        self.assertEqual(written.to_yaml(), swept.to_yaml())
+        late, same = (ld.Study.of(of).sample(2)["run.stuck_time"] for of in (swept, written))
+        self.assertEqual(late, same)
+        self.assertNotEqual(late, swept["run.stuck_time"])
+
     def test_points_beside_each_other(self):
         with ld.Study.of(scattered(6, sweep={"base.elevation": ["10 deg", "20 deg"]})).run(
                 self.folder / "study") as data:
