@@ -506,11 +506,12 @@ static void keep_whole(double to[3], const double from[3])
         to[i] = given ? from[i] : NAN;
 }
 
-// A copy without the numbers that follow from others, where samples change those; to be freed
-// alone. NULL: there is nothing to leave out, or no memory.
+// A copy without the numbers that follow from others, where samples or points change those; to be
+// freed alone. NULL: there is nothing to leave out, or no memory.
 static ld_model *without_completed(const ld_model *model)
 {
-    bool changes = model->scatter.factor_count > 0 || model->sweep_count > 0;
+    bool sweeps = model->sweep_count > 0 && model->point == 0;
+    bool changes = model->scatter.factor_count > 0 || sweeps;
     ld_model *copy = changes ? malloc(sizeof *copy) : NULL;
     if (!copy)
         return NULL;

@@ -136,8 +136,9 @@ static double rates_off(const ld_summary *a, const ld_summary *b)
     return fmax(fabs(p->pitch_rate - q->pitch_rate), fabs(p->yaw_rate - q->yaw_rate));
 }
 
-// Default modes; many modes with a cut, and with twice that, whose error is below that of the default
-// tolerance; many modes as they are. Evaluations say what steps cost; they depend on no clock.
+// Default modes; many modes with a cut, and with twice that, whose error is below that of the
+// default tolerance; many modes as they are. Evaluations say what steps cost; they depend on no
+// clock.
 static void compare(const char *example, const char *more, double at, double bound, double twice,
                     double evaluations)
 {
