@@ -14,7 +14,7 @@ def main() -> None:
         others = (folder for folder in os.get_exec_path() if Path(folder).resolve() != own)
         found = shutil.which("launchdyn", path=os.pathsep.join(others))
         if not found:
-            sys.exit("launchdyn: this package has no command, and PATH has no other; build launchdyn "
-                     "and install it, or install a wheel that scripts/wheel made")
+            sys.exit("launchdyn: this package has no command, and PATH has no other; build "
+                     "launchdyn and install it, or install a wheel that scripts/wheel made")
         command = found
     os.execv(command, [command, *sys.argv[1:]])

@@ -223,13 +223,15 @@ class TestTables(Case):
         scenario = ld.Scenario.read(FIXED, {"run.end": "apogee"})
         result = scenario.run(out=self.folder / "out")
         for group, table in (("history", result.history), ("rockets/1/flight", result.flight())):
-            with xarray.open_dataset(self.folder / "out/history.h5", engine="h5netcdf", group=group) as data:
+            with xarray.open_dataset(self.folder / "out/history.h5", engine="h5netcdf",
+                                     group=group) as data:
                 self.assertEqual([*data.variables][0], "t")
                 self.assertEqual(set(data.variables), set(table))
                 for name, column in table.columns.items():
                     np.testing.assert_array_equal(data[name], table[name], name)
                     self.assertEqual(data[name].dims, ("t",))
-                    self.assertEqual(data[name].attrs, {"units": column.unit, "long_name": column.description})
+                    self.assertEqual(data[name].attrs, {"units": column.unit,
+                                                        "long_name": column.description})
         with xarray.open_dataset(self.folder / "out/history.h5", engine="h5netcdf") as whole:
             self.assertEqual(whole.attrs["complete"], 1)
             self.assertIn("rocket:", whole["scenario"].values[0].decode())

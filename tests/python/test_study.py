@@ -230,7 +230,7 @@ class TestStudy(Case):
             self.assertEqual(samples[0]["rocket.empty.center.x"], samples[0]["rocket.center.x"])
 
     def test_written_sweep_has_the_same_samples(self):
-        swept = ld.Scenario.read("examples/fixed.yaml", {"sweep": {"rocket.motor.time_scale": [1, 1.5]}})
+        swept = ld.Scenario.read(FIXED, {"sweep": {"rocket.motor.time_scale": [1, 1.5]}})
         written = ld.Scenario.from_text(swept.to_yaml())
         self.assertEqual(written.to_yaml(), swept.to_yaml())
         late, same = (ld.Study.of(of).sample(2)["run.stuck_time"] for of in (swept, written))
