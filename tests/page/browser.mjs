@@ -43,7 +43,7 @@ async function checkFields(browser) {
     paint: performance.getEntriesByType("paint").find(({ name }) => name === "first-contentful-paint").startTime }));
   console.log(`    first paint after ${paint.toFixed(0)} ms, launch in ${took.toFixed(0)} ms`);
   await checkNoneEmpty(page);
-  await picture(page, "page-light.png");
+  await picture(page, "page.png");
   await setNumber(page, "rocket.mass", 66);
   await setNumber(page, "base.elevation", 35);
   const heavy = summaryOf("fixed.yaml", "--set", "rocket.mass=66 kg", "--set", "base.elevation=35 deg");
