@@ -94,13 +94,11 @@ LD_ALWAYS_INLINE void apply_reflection(const columns *self, int k, double tau)
     }
 }
 
-#if defined(__x86_64__)
 // The same code with the processor's wider instructions: the same bits.
-__attribute__((target("avx2"))) static void apply_wide(const columns *self, int k, double tau)
+LANES_AVX2 static void apply_wide(const columns *self, int k, double tau)
 {
     apply_reflection(self, k, tau);
 }
-#endif
 
 // To the form of Hessenberg by reflections (Golub and Van Loan, Matrix Computations, 7.4.3).
 static void reduce(const columns *self)
@@ -109,13 +107,10 @@ static void reduce(const columns *self)
         double tau = reflect(self, k);
         if (tau == 0)
             continue;
-#if defined(__x86_64__)
-        if (self->wide_instructions) {
+        if (self->wide_instructions)
             apply_wide(self, k, tau);
-            continue;
-        }
-#endif
-        apply_reflection(self, k, tau);
+        else
+            apply_reflection(self, k, tau);
     }
 }
 
@@ -172,7 +167,7 @@ int general_eigenvalues(int n, double *A, double *re, double *im)
     self.work = self.y + row;
 #if defined(__x86_64__)
     // valgrind does not know them all: LAUNCHDYN_PLAIN=1 does without
-    self.wide_instructions = __builtin_cpu_supports("avx2") && !getenv("LAUNCHDYN_PLAIN");
+    self.wide_instructions = lanes_have_avx2();
 #endif
     info = reduced_eigenvalues(n, A, low - 1, &self, re, im);
     free(self.A);
