@@ -28,11 +28,6 @@ struct road {
     spline profile[2];
 };
 
-static bool has_equal_tracks(const road *self)
-{
-    return self->model->tracks == LD_TRACKS_SAME;
-}
-
 // Of k and c.
 static size_t numbers_of(int harmonics)
 {
@@ -440,13 +435,12 @@ double road_density(const ld_road *model, double n, double *shared)
     return random && within ? road_class_density(model->iso_class, n) : 0;
 }
 
-// Takes over the table of a road that has the same harmonics, and as many places: to the bit its
-// own.
+// Takes over the table of a road that has the same harmonics, of which spacing and equal tracks
+// follow, and as many places: to the bit its own.
 static bool take_table(road *self, road *former)
 {
     if (!former || former->harmonics != self->harmonics || former->cells != self->cells ||
-        former->from != self->from || former->spacing != self->spacing ||
-        (former->cell[ROAD_RIGHT] == former->cell[ROAD_LEFT]) != has_equal_tracks(self) ||
+        former->from != self->from ||
         memcmp(former->memory, self->memory, numbers_of(self->harmonics) * sizeof(double)) != 0)
         return false;
     memcpy(self->cell, former->cell, sizeof self->cell);
@@ -474,7 +468,7 @@ static ld_status build_random(road *self, double x0, double x1, road *former, ld
     self->cells = (size_t)fmin(cells, MOST_CELLS);
     if (take_table(self, former))
         return LD_OK;
-    int tables = has_equal_tracks(self) ? 1 : 2;
+    int tables = self->model->tracks == LD_TRACKS_SAME ? 1 : 2;
     for (int track = 0; track < tables; track++) {
         self->cell[track] = malloc(self->cells * COEFFICIENTS * sizeof(double));
         if (!self->cell[track] || !tabulate(self, (road_track)track))
