@@ -410,8 +410,8 @@ typedef struct watcher {
 static absence absence_of(const char *column)
 {
     static const char *const at_times[] = {"contact.", "shoe.", "since_ignition."};
-    static const char *const rocket[] = {"rocket.", "tip_off.", "thrust",     "slot.",
-                                         "lock.",   "breech.",  "crossflow.", "pressure."};
+    static const char *const rocket[] = {"rocket.", "tip_off.",   "thrust",    "slot.",  "lock.",
+                                         "breech.", "crossflow.", "pressure.", "center."};
     for (size_t i = 0; i < sizeof at_times / sizeof *at_times; i++)
         if (strncmp(column, at_times[i], strlen(at_times[i])) == 0)
             return AT_TIMES;
