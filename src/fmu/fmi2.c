@@ -201,7 +201,7 @@ fmi2Status fmi2GetReal(void *c, const unsigned *reference, size_t count, double 
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
         status = answer_status(
-            self, fmu_get_number(self->inside, reference[i], false, &value[i], &error), &error);
+            self, fmu_get_number(self->inside, reference[i], FMU_REAL, &value[i], &error), &error);
     return status;
 }
 
@@ -213,7 +213,7 @@ fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count, const d
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
         status = answer_status(
-            self, fmu_set_number(self->inside, reference[i], false, value[i], &error), &error);
+            self, fmu_set_number(self->inside, reference[i], FMU_REAL, value[i], &error), &error);
     return status;
 }
 
@@ -226,7 +226,7 @@ fmi2Status fmi2GetBoolean(void *c, const unsigned *reference, size_t count, int 
     for (size_t i = 0; !status && i < count; i++) {
         double number;
         status = answer_status(
-            self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
+            self, fmu_get_number(self->inside, reference[i], FMU_BOOLEAN, &number, &error), &error);
         value[i] = number == 1;
     }
     return status;
@@ -240,7 +240,8 @@ fmi2Status fmi2SetBoolean(void *c, const unsigned *reference, size_t count, cons
     fmi2Status status = fmi2OK;
     for (size_t i = 0; !status && i < count; i++)
         status = answer_status(
-            self, fmu_set_number(self->inside, reference[i], true, value[i] != 0, &error), &error);
+            self, fmu_set_number(self->inside, reference[i], FMU_BOOLEAN, value[i] != 0, &error),
+            &error);
     return status;
 }
 
@@ -268,17 +269,32 @@ fmi2Status fmi2SetString(void *c, const unsigned *reference, size_t count, const
     return status;
 }
 
-// There are no integers.
 fmi2Status fmi2GetInteger(void *c, const unsigned *reference, size_t count, int *value)
 {
-    (void)reference, (void)value;
-    return count == 0 ? fmi2OK : not_offered(c, "fmi2GetInteger");
+    component *self = c;
+    NEEDS(count == 0 || (reference && value));
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++) {
+        double number;
+        status = answer_status(
+            self, fmu_get_number(self->inside, reference[i], FMU_INTEGER, &number, &error), &error);
+        value[i] = status ? 0 : (int)number;
+    }
+    return status;
 }
 
 fmi2Status fmi2SetInteger(void *c, const unsigned *reference, size_t count, const int *value)
 {
-    (void)reference, (void)value;
-    return count == 0 ? fmi2OK : not_offered(c, "fmi2SetInteger");
+    component *self = c;
+    NEEDS_ALIVE(count == 0 || (reference && value));
+    ld_error error;
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; !status && i < count; i++)
+        status = answer_status(
+            self, fmu_set_number(self->inside, reference[i], FMU_INTEGER, value[i], &error),
+            &error);
+    return status;
 }
 
 // ---- steps ----

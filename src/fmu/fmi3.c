@@ -199,7 +199,7 @@ fmi3Status fmi3GetFloat64(void *instance, const uint32_t *reference, size_t refe
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
         status = answer_status(
-            self, fmu_get_number(self->inside, reference[i], false, &value[i], &error), &error);
+            self, fmu_get_number(self->inside, reference[i], FMU_REAL, &value[i], &error), &error);
     return status;
 }
 
@@ -212,7 +212,7 @@ fmi3Status fmi3SetFloat64(void *instance, const uint32_t *reference, size_t refe
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
         status = answer_status(
-            self, fmu_set_number(self->inside, reference[i], false, value[i], &error), &error);
+            self, fmu_set_number(self->inside, reference[i], FMU_REAL, value[i], &error), &error);
     return status;
 }
 
@@ -226,7 +226,7 @@ fmi3Status fmi3GetBoolean(void *instance, const uint32_t *reference, size_t refe
     for (size_t i = 0; !status && i < values; i++) {
         double number;
         status = answer_status(
-            self, fmu_get_number(self->inside, reference[i], true, &number, &error), &error);
+            self, fmu_get_number(self->inside, reference[i], FMU_BOOLEAN, &number, &error), &error);
         value[i] = number == 1;
     }
     return status;
@@ -241,7 +241,8 @@ fmi3Status fmi3SetBoolean(void *instance, const uint32_t *reference, size_t refe
     fmi3Status status = check_counts(self, references, values);
     for (size_t i = 0; !status && i < values; i++)
         status = answer_status(
-            self, fmu_set_number(self->inside, reference[i], true, value[i], &error), &error);
+            self, fmu_set_number(self->inside, reference[i], FMU_BOOLEAN, value[i], &error),
+            &error);
     return status;
 }
 
@@ -271,6 +272,36 @@ fmi3Status fmi3SetString(void *instance, const uint32_t *reference, size_t refer
     return status;
 }
 
+fmi3Status fmi3GetInt32(void *instance, const uint32_t *reference, size_t references,
+                        int32_t *value, size_t values)
+{
+    component *self = instance;
+    NEEDS(references == 0 || (reference && value));
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++) {
+        double number;
+        status = answer_status(
+            self, fmu_get_number(self->inside, reference[i], FMU_INTEGER, &number, &error), &error);
+        value[i] = status ? 0 : (int32_t)number;
+    }
+    return status;
+}
+
+fmi3Status fmi3SetInt32(void *instance, const uint32_t *reference, size_t references,
+                        const int32_t *value, size_t values)
+{
+    component *self = instance;
+    NEEDS_ALIVE(references == 0 || (reference && value));
+    ld_error error;
+    fmi3Status status = check_counts(self, references, values);
+    for (size_t i = 0; !status && i < values; i++)
+        status = answer_status(
+            self, fmu_set_number(self->inside, reference[i], FMU_INTEGER, value[i], &error),
+            &error);
+    return status;
+}
+
 // Types of which there are no variables.
 #define NO_VALUES(name, type)                                                                      \
     fmi3Status fmi3Get##name(void *instance, const uint32_t *reference, size_t references,         \
@@ -291,7 +322,6 @@ NO_VALUES(Int8, int8_t)
 NO_VALUES(UInt8, uint8_t)
 NO_VALUES(Int16, int16_t)
 NO_VALUES(UInt16, uint16_t)
-NO_VALUES(Int32, int32_t)
 NO_VALUES(UInt32, uint32_t)
 NO_VALUES(Int64, int64_t)
 NO_VALUES(UInt64, uint64_t)

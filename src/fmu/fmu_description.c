@@ -139,18 +139,18 @@ static const char *variability_of(const fmu_variable *v)
                                                               : "continuous";
 }
 
-static void write_head(FILE *stream, const fmu_variable *v, size_t reference)
+static void write_head(FILE *stream, const fmu_variable *v)
 {
     fprintf(stream, " name=\"");
     fmu_write_text(stream, v->name);
-    fprintf(stream, "\" valueReference=\"%zu\" description=\"", reference);
+    fprintf(stream, "\" valueReference=\"%u\" description=\"", v->reference);
     fmu_write_text(stream, v->description);
     fprintf(stream, "\" causality=\"%s\" variability=\"%s\"", causality_of(v), variability_of(v));
 }
 
 static void write_start(FILE *stream, const fmu_variable *v)
 {
-    if (fmu_is_boolean(v))
+    if (fmu_type_of(v) == FMU_BOOLEAN)
         fprintf(stream, " start=\"%s\"", v->start != 0 ? "true" : "false");
     else if (!isnan(v->start))
         fprintf(stream, " start=\"%.17g\"", v->start);
@@ -164,48 +164,55 @@ static void write_sizes(FILE *stream, const fmu_variable *v)
         fprintf(stream, " nominal=\"%.17g\"", v->nominal);
 }
 
-// Of which state it is the rate; references are counted from `first` there.
+// How a variable is named in other places: by its place, from 1, in FMI 2.0, else by its reference.
+static size_t number_of(const fmu_variables *all, size_t place, int version)
+{
+    return version == 2 ? place + 1 : all->item[place].reference;
+}
+
+// Of which state it is the rate.
 static void write_derivative(FILE *stream, const fmu_variables *all, const fmu_variable *v,
-                             size_t first)
+                             int version)
 {
     if (v->group == FMU_RATE)
         fprintf(stream, " derivative=\"%zu\"",
-                fmu_group_begin(all, FMU_STATE) + (size_t)v->index + first);
+                number_of(all, fmu_group_begin(all, FMU_STATE) + (size_t)v->index, version));
 }
 
-static void write_variable_2(FILE *stream, const fmu_variables *all, size_t reference)
+static void write_variable_2(FILE *stream, const fmu_variables *all, size_t place)
 {
-    const fmu_variable *v = &all->item[reference];
+    static const char *const type[] = {"Real", "Boolean", "Integer"};
+    const fmu_variable *v = &all->item[place];
     fputs("    <ScalarVariable", stream);
-    write_head(stream, v, reference);
-    if (fmu_is_text(v)) {
+    write_head(stream, v);
+    if (fmu_type_of(v) == FMU_STRING) {
         fputs("><String start=\"", stream);
         fmu_write_text(stream, v->text);
         fputs("\"/>", stream);
     } else {
-        fputs(fmu_is_boolean(v) ? "><Boolean" : "><Real", stream);
+        fprintf(stream, "><%s", type[fmu_type_of(v)]);
         write_sizes(stream, v);
-        write_derivative(stream, all, v, 1);
+        write_derivative(stream, all, v, 2);
         write_start(stream, v);
         fputs("/>", stream);
     }
     fputs("</ScalarVariable>\n", stream);
 }
 
-static void write_variable_3(FILE *stream, const fmu_variables *all, size_t reference)
+static void write_variable_3(FILE *stream, const fmu_variables *all, size_t place)
 {
-    const fmu_variable *v = &all->item[reference];
-    const char *type = fmu_is_text(v) ? "String" : fmu_is_boolean(v) ? "Boolean" : "Float64";
-    fprintf(stream, "    <%s", type);
-    write_head(stream, v, reference);
-    if (fmu_is_text(v)) {
+    static const char *const type[] = {"Float64", "Boolean", "Int32", "String"};
+    const fmu_variable *v = &all->item[place];
+    fprintf(stream, "    <%s", type[fmu_type_of(v)]);
+    write_head(stream, v);
+    if (fmu_type_of(v) == FMU_STRING) {
         fputs("><Start value=\"", stream);
         fmu_write_text(stream, v->text);
         fputs("\"/></String>\n", stream);
         return;
     }
     write_sizes(stream, v);
-    write_derivative(stream, all, v, 0);
+    write_derivative(stream, all, v, 3);
     write_start(stream, v);
     fputs("/>\n", stream);
 }
@@ -257,15 +264,14 @@ static bool is_known(const known *from, const fmu_variable *v)
                                    : fmu_is_parameter(v) && from->parameters;
 }
 
-// References are counted from `first`.
 static void write_dependencies(FILE *stream, const fmu_variables *all, const known *from,
-                               size_t first)
+                               int version)
 {
     const char *between = "";
     fputs(" dependencies=\"", stream);
     for (size_t i = 0; i < all->count; i++)
         if (is_known(from, &all->item[i])) {
-            fprintf(stream, "%s%zu", between, i + first);
+            fprintf(stream, "%s%zu", between, number_of(all, i, version));
             between = " ";
         }
     fputs("\"", stream);
@@ -277,7 +283,6 @@ static void write_unknowns(FILE *stream, const fmu_description *self, const char
                            bool initial, bool asked(const fmu_variable *))
 {
     const fmu_variables *all = self->variables;
-    const size_t first = self->version == 2 ? 1 : 0;
     const bool listed = !initial || (all->runner->input_count > 0 && !all->runner->follows);
     if (self->version == 2)
         fprintf(stream, "    <%s>\n", element);
@@ -286,11 +291,12 @@ static void write_unknowns(FILE *stream, const fmu_description *self, const char
             continue;
         known from = initial ? (known){.parameters = true} : known_of(all, &all->item[i]);
         if (self->version == 2)
-            fprintf(stream, "      <Unknown index=\"%zu\"", i + first);
+            fputs("      <Unknown index", stream);
         else
-            fprintf(stream, "    <%s valueReference=\"%zu\"", element, i);
+            fprintf(stream, "    <%s valueReference", element);
+        fprintf(stream, "=\"%zu\"", number_of(all, i, self->version));
         if (listed)
-            write_dependencies(stream, all, &from, first);
+            write_dependencies(stream, all, &from, self->version);
         fputs("/>\n", stream);
     }
     if (self->version == 2)

@@ -58,7 +58,7 @@ static ld_status first_message(const ld_messages *messages, ld_status status, ld
 static void write_set(const fmu_instance *self, size_t i, char *set)
 {
     const fmu_variable *v = &self->variables.item[i];
-    if (fmu_is_text(v))
+    if (fmu_type_of(v) == FMU_STRING)
         snprintf(set, SET_SIZE, "%s=%s", fmu_key_of(v), self->text[i]);
     else
         snprintf(set, SET_SIZE, "%s=%.17g %s", fmu_key_of(v), self->number[i], v->unit);
@@ -418,28 +418,25 @@ ld_status fmu_set_experiment(fmu_instance *self, double start, double tolerance,
 
 // ---- values ----
 
-typedef enum value_type { VALUE_NUMBER, VALUE_BOOLEAN, VALUE_TEXT } value_type;
-
-static value_type type_of(const fmu_variable *variable)
-{
-    return fmu_is_text(variable)      ? VALUE_TEXT
-           : fmu_is_boolean(variable) ? VALUE_BOOLEAN
-                                      : VALUE_NUMBER;
-}
-
 // NULL: there is none, or one of another type.
-static const fmu_variable *find(const fmu_instance *self, unsigned reference, value_type type,
+static const fmu_variable *find(const fmu_instance *self, unsigned reference, fmu_type type,
                                 ld_error *error)
 {
-    if (reference >= self->variables.count) {
+    size_t place = fmu_variables_find(&self->variables, reference);
+    if (place == self->variables.count) {
         ld_fail(error, LD_ERR_INPUT, "variable %u does not exist", reference);
         return NULL;
     }
-    const fmu_variable *variable = &self->variables.item[reference];
-    if (type_of(variable) == type)
+    const fmu_variable *variable = &self->variables.item[place];
+    if (fmu_type_of(variable) == type)
         return variable;
     ld_fail(error, LD_ERR_INPUT, "%s is of another type", variable->name);
     return NULL;
+}
+
+static size_t place_of(const fmu_instance *self, const fmu_variable *variable)
+{
+    return (size_t)(variable - self->variables.item);
 }
 
 // States and what goes with them, which importers that take the steps seldom ask for one by one.
@@ -531,33 +528,33 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
     }
 }
 
-ld_status fmu_get_number(fmu_instance *self, unsigned reference, bool boolean, double *value,
+ld_status fmu_get_number(fmu_instance *self, unsigned reference, fmu_type type, double *value,
                          ld_error *error)
 {
-    const fmu_variable *variable =
-        find(self, reference, boolean ? VALUE_BOOLEAN : VALUE_NUMBER, error);
+    const fmu_variable *variable = find(self, reference, type, error);
     *value = NAN;
     if (!variable)
         return LD_ERR_INPUT;
     if (variable->group == FMU_TIME || fmu_is_output(variable) || fmu_is_local(variable))
         return output(self, variable, value, error);
-    *value = self->number[reference];
+    *value = self->number[place_of(self, variable)];
     return LD_OK;
 }
 
 ld_status fmu_get_text(fmu_instance *self, unsigned reference, const char **text, ld_error *error)
 {
-    const fmu_variable *variable = find(self, reference, VALUE_TEXT, error);
+    const fmu_variable *variable = find(self, reference, FMU_STRING, error);
     *text = "";
     if (!variable)
         return LD_ERR_INPUT;
-    *text = self->text[reference] ? self->text[reference] : variable->text;
+    *text = self->text[place_of(self, variable)];
+    if (!*text)
+        *text = variable->text;
     return LD_OK;
 }
 
 // What is set holds from the next step on, or, before the run goes, from its start on.
-static ld_status take_change(fmu_instance *self, const fmu_variable *variable, unsigned reference,
-                             ld_error *error)
+static ld_status take_change(fmu_instance *self, const fmu_variable *variable, ld_error *error)
 {
     if (!fmu_is_input(variable) && !fmu_is_parameter(variable))
         return ld_fail(error, LD_ERR_INPUT, "%s is neither an input nor a parameter",
@@ -568,28 +565,27 @@ static ld_status take_change(fmu_instance *self, const fmu_variable *variable, u
         end_run(self);
     self->inputs_set |= variable->group == FMU_PART_INPUT;
     self->exchange.moved |= variable->group == FMU_PART_INPUT;
-    self->changed[reference] = true;
+    self->changed[place_of(self, variable)] = true;
     return LD_OK;
 }
 
-ld_status fmu_set_number(fmu_instance *self, unsigned reference, bool boolean, double value,
+ld_status fmu_set_number(fmu_instance *self, unsigned reference, fmu_type type, double value,
                          ld_error *error)
 {
-    const fmu_variable *variable =
-        find(self, reference, boolean ? VALUE_BOOLEAN : VALUE_NUMBER, error);
+    const fmu_variable *variable = find(self, reference, type, error);
     if (!variable)
         return LD_ERR_INPUT;
     if (!isfinite(value))
         return ld_fail(error, LD_ERR_INPUT, "%s cannot be %g", variable->name, value);
-    ld_status status = take_change(self, variable, reference, error);
+    ld_status status = take_change(self, variable, error);
     if (!status)
-        self->number[reference] = value;
+        self->number[place_of(self, variable)] = value;
     return status;
 }
 
 ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text, ld_error *error)
 {
-    const fmu_variable *variable = find(self, reference, VALUE_TEXT, error);
+    const fmu_variable *variable = find(self, reference, FMU_STRING, error);
     if (!variable)
         return LD_ERR_INPUT;
     if (!text)
@@ -597,13 +593,14 @@ ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text,
     if (strlen(text) >= SAVED_TEXT)
         return ld_fail(error, LD_ERR_INPUT, "the text of %s is too long", variable->name);
     char *copy = strdup(text);
-    ld_status status = copy ? take_change(self, variable, reference, error) : no_memory(error);
+    ld_status status = copy ? take_change(self, variable, error) : no_memory(error);
     if (status) {
         free(copy);
         return status;
     }
-    free(self->text[reference]);
-    self->text[reference] = copy;
+    char **text_there = &self->text[place_of(self, variable)];
+    free(*text_there);
+    *text_there = copy;
     return LD_OK;
 }
 
@@ -675,7 +672,7 @@ ld_status fmu_step_on(fmu_instance *self, double t, double size, bool at_events,
 
 // ---- states ----
 
-static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 3;
+static const int64_t MAGIC = INT64_C(0x554d4664796c31), FORM = 4;
 
 static void archive_set_text(fmu_instance *self, archive *state, size_t i)
 {

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "fmu/fmu_variables.h"
 #include "launchdyn/status.h"
 
 typedef struct fmu_instance fmu_instance;
@@ -20,16 +21,16 @@ void fmu_instance_free(fmu_instance *self);
 // As it was when it was new.
 ld_status fmu_instance_reset(fmu_instance *self, ld_error *error);
 
-// A number (of what is true or false 1 or 0), or a text, by value reference. A text lasts until its
-// variable is set. Returns LD_OK; LD_ERR_INPUT: no such variable, or one of another type; what
-// ended the run, or why there is none.
-ld_status fmu_get_number(fmu_instance *self, unsigned reference, bool boolean, double *value,
+// A number (of what is true or false 1 or 0) of a type, or a text, by value reference. A text lasts
+// until its variable is set. Returns LD_OK; LD_ERR_INPUT: no such variable, or one of another type;
+// what ended the run, or why there is none.
+ld_status fmu_get_number(fmu_instance *self, unsigned reference, fmu_type type, double *value,
                          ld_error *error);
 ld_status fmu_get_text(fmu_instance *self, unsigned reference, const char **text, ld_error *error);
 
 // The same, set: parameters before the run has begun, inputs at any time. Returns LD_OK;
 // LD_ERR_INPUT: no such variable, or one that is not to be set now; LD_ERR_MEMORY.
-ld_status fmu_set_number(fmu_instance *self, unsigned reference, bool boolean, double value,
+ld_status fmu_set_number(fmu_instance *self, unsigned reference, fmu_type type, double value,
                          ld_error *error);
 ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text, ld_error *error);
 

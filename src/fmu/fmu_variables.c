@@ -12,6 +12,7 @@
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
 #include "model/fields/digest.h"
+#include "model/fields/field.h"
 #include "model/parts.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
@@ -30,17 +31,75 @@ void fmu_variables_free(fmu_variables *self)
         free(v->text);
     }
     free(self->item);
+    free(self->order);
     *self = (fmu_variables){0};
 }
 
-bool fmu_is_boolean(const fmu_variable *variable)
+// ---- value references ----
+
+// FNV-1a of the name, folded to 31 bits: importers may keep references as signed numbers.
+static unsigned reference_of(const char *name)
 {
-    return variable->group == FMU_IGNITE || variable->group == FMU_WAIT;
+    uint64_t digest = digest_bytes(DIGEST_BEGIN, name, strlen(name));
+    return (unsigned)(digest ^ digest >> 32) & 0x7fffffff;
 }
 
-bool fmu_is_text(const fmu_variable *variable)
+typedef struct reference_place {
+    unsigned reference;
+    size_t place;
+} reference_place;
+
+static int compare_references(const void *a, const void *b)
 {
-    return variable->group == FMU_TEXT;
+    const reference_place *x = a, *y = b;
+    if (x->reference != y->reference)
+        return x->reference < y->reference ? -1 : 1;
+    return x->place < y->place ? -1 : 1;
+}
+
+bool fmu_variables_refer(fmu_variables *self)
+{
+    reference_place *by = malloc((1 + self->count) * sizeof *by);
+    free(self->order);
+    self->order = malloc((1 + self->count) * sizeof *self->order);
+    bool fine = by && self->order;
+    for (size_t i = 0; i < self->count && fine; i++)
+        by[i] = (reference_place){reference_of(self->item[i].name), i};
+    if (fine)
+        qsort(by, self->count, sizeof *by, compare_references);
+    for (size_t i = 0; i < self->count && fine; i++) {
+        if (i > 0 && by[i].reference <= by[i - 1].reference)
+            by[i].reference = by[i - 1].reference + 1;
+        self->order[i] = by[i].place;
+        self->item[by[i].place].reference = by[i].reference;
+    }
+    free(by);
+    return fine;
+}
+
+size_t fmu_variables_find(const fmu_variables *self, unsigned reference)
+{
+    size_t low = 0, high = self->count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (self->item[self->order[middle]].reference < reference)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    bool found = low < self->count && self->item[self->order[low]].reference == reference;
+    return found ? self->order[low] : self->count;
+}
+
+// ---- kinds ----
+
+fmu_type fmu_type_of(const fmu_variable *variable)
+{
+    bool truth = variable->group == FMU_IGNITE || variable->group == FMU_WAIT;
+    return truth                         ? FMU_BOOLEAN
+           : variable->group == FMU_TEXT ? FMU_STRING
+           : variable->whole             ? FMU_INTEGER
+                                         : FMU_REAL;
 }
 
 bool fmu_is_input(const fmu_variable *variable)
@@ -190,18 +249,44 @@ static void add_wrench(gathering *self, fmu_group group, const char *prefix, con
                   start);
 }
 
-// The key at `path`, if the model has it and it is of the group that is taken.
-static void add_key(gathering *self, const char *path, const ld_key *key)
+// The number at `path`, of a key, if that is one, and if numbers are taken.
+static bool add_number(gathering *self, const char *path, const ld_key *key)
+{
+    char name[NAME_SIZE + sizeof KEY_PREFIX + 2], why[LD_ERROR_TEXT];
+    field_place place;
+    if (!field_locate(self->model, path, &place, why, sizeof why))
+        return false;
+    double number = field_get(self->model, &place);
+    if (self->keys != FMU_NUMBER || isnan(number))
+        return true;
+    snprintf(name, sizeof name, KEY_PREFIX "%s", path);
+    add(self, FMU_NUMBER, (ld_column){name, key->unit, key->description}, number, NULL);
+    if (!self->full)
+        self->into->item[self->into->count - 1].whole = place.whole;
+    return true;
+}
+
+static void add_text(gathering *self, const char *path, const ld_key *key)
 {
     char name[NAME_SIZE + sizeof KEY_PREFIX], text[TEXT_SIZE];
-    double number;
-    bool is_number = !ld_model_number(self->model, path, &number, NULL);
+    if (ld_model_text(self->model, path, text, sizeof text, NULL) || !*text)
+        return;
     snprintf(name, sizeof name, KEY_PREFIX "%s", path);
-    if (self->keys == FMU_NUMBER && is_number && !isnan(number))
-        add(self, FMU_NUMBER, (ld_column){name, key->unit, key->description}, number, NULL);
-    else if (self->keys == FMU_TEXT && !is_number &&
-             !ld_model_text(self->model, path, text, sizeof text, NULL) && *text)
-        add(self, FMU_TEXT, (ld_column){name, "", key->description}, NAN, text);
+    add(self, FMU_TEXT, (ld_column){name, "", key->description}, NAN, text);
+}
+
+// The key at `path`, a vector by its components, if the model has it and it is of the group that is
+// taken.
+static void add_key(gathering *self, const char *path, const ld_key *key)
+{
+    char component[NAME_SIZE + 2];
+    bool numeric = add_number(self, path, key);
+    for (const char *axis = numeric ? "" : "wxyz"; *axis; axis++) {
+        snprintf(component, sizeof component, "%.*s.%c", NAME_SIZE - 1, path, *axis);
+        numeric |= add_number(self, component, key);
+    }
+    if (self->keys == FMU_TEXT && !numeric)
+        add_text(self, path, key);
 }
 
 // Keys that say what a study draws are none of a launch; the first one is the language's number.
@@ -364,5 +449,6 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
     if (self->exchange)
         add_states(&all, run);
     runner->end(run);
+    all.full |= !fmu_variables_refer(self);
     return all.full ? ld_fail(error, LD_ERR_MEMORY, "no memory") : LD_OK;
 }

@@ -1,5 +1,5 @@
-// The variables of an FMU: what its description lists, and what its instances count by the same
-// numbers (value references).
+// The variables of an FMU: what its description lists, and what its instances find by the same
+// value references.
 #ifndef LD_FMU_FMU_VARIABLES_H
 #define LD_FMU_FMU_VARIABLES_H
 
@@ -24,22 +24,27 @@ typedef enum fmu_group {
     FMU_INDICATOR, // what goes through zero at events
 } fmu_group;
 
+typedef enum fmu_type { FMU_REAL, FMU_BOOLEAN, FMU_INTEGER, FMU_STRING } fmu_type;
+
 typedef struct fmu_variable {
     fmu_group group;
-    int index;         // in its group, from 0
-    char *name;        // "input.base.position.x", "scenario.rocket.mass", "tip.y"
-    char *unit;        // SI; "" without
-    char *description; // one line
-    double nominal;    // of states
-    double start;      // of numbers and of what is true (1) or false (0); NaN: calculated
-    char *text;        // start of texts; NULL
+    bool whole;         // a number that counts
+    unsigned reference; // value reference: follows from the name alone, below 2^31
+    int index;          // in its group, from 0
+    char *name;         // "input.base.position.x", "scenario.rocket.mass", "tip.y"
+    char *unit;         // SI; "" without
+    char *description;  // one line
+    double nominal;     // of states
+    double start;       // of numbers and of what is true (1) or false (0); NaN: calculated
+    char *text;         // start of texts; NULL
 } fmu_variable;
 
 typedef struct fmu_variables {
     size_t count, capacity;
     fmu_variable *item;
-    double start; // [s] of the run's clock
-    double stop;  // when the launch is over, rounded up; NaN: not known, as inside of an FMU
+    size_t *order; // places in `item`, by value references that rise
+    double start;  // [s] of the run's clock
+    double stop;   // when the launch is over, rounded up; NaN: not known, as inside of an FMU
     const fmu_runner *runner;
     bool exchange; // it is one for model exchange, too
 } fmu_variables;
@@ -54,14 +59,19 @@ void fmu_variables_free(fmu_variables *self);
 ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part *part,
                              fmu_variables *variables, ld_error *error);
 
-bool fmu_is_boolean(const fmu_variable *variable);
-bool fmu_is_text(const fmu_variable *variable);
+// Gives them their value references: the same name has the same one in every FMU. Where two names
+// of one FMU have the same, the latter takes the next that is free. False: no memory.
+bool fmu_variables_refer(fmu_variables *self);
+// The place of that value reference; `count`: there is none.
+size_t fmu_variables_find(const fmu_variables *self, unsigned reference);
+
+fmu_type fmu_type_of(const fmu_variable *variable);
 bool fmu_is_input(const fmu_variable *variable);
 bool fmu_is_parameter(const fmu_variable *variable);
 bool fmu_is_output(const fmu_variable *variable);
 // Seen from outside alone, of model exchange.
 bool fmu_is_local(const fmu_variable *variable);
-// The value reference of a group's first variable; how many it has.
+// The place of a group's first variable; how many it has.
 size_t fmu_group_begin(const fmu_variables *self, fmu_group group);
 size_t fmu_group_count(const fmu_variables *self, fmu_group group);
 

@@ -46,7 +46,7 @@ static void write_component(FILE *stream, const system_structure *self, int k)
             fprintf(stream,
                     "          <ssd:Connector name=\"%s\" kind=\"%s\"><ssc:%s/></ssd:Connector>\n",
                     v->name, fmu_is_input(v) ? "input" : "output",
-                    fmu_is_boolean(v) ? "Boolean" : "Real");
+                    fmu_type_of(v) == FMU_BOOLEAN ? "Boolean" : "Real");
     }
     fputs("        </ssd:Connectors>\n      </ssd:Component>\n", stream);
 }

@@ -5,14 +5,36 @@
 
 enum { MOST = 1200 };
 
-// Variables by value reference, which count from 0.
+typedef struct referred {
+    uint32_t reference;
+    size_t place;
+} referred;
+
+// Variables in the order of the description.
 typedef struct book {
     const unpacked_fmu *fmu;
     size_t count;
+    uint32_t reference[MOST];
+    referred by[MOST]; // by value references that rise
     char name[MOST][64], causality[MOST][16];
     bool is_real[MOST];
     bool declared[MOST][MOST], reacts[MOST][MOST]; // [unknown][known]
 } book;
+
+static int compare_references(const void *a, const void *b)
+{
+    const referred *x = a, *y = b;
+    return x->reference < y->reference ? -1 : x->reference > y->reference;
+}
+
+static size_t place_of(const book *self, uint32_t reference)
+{
+    referred wanted = {.reference = reference};
+    const referred *found =
+        bsearch(&wanted, self->by, self->count, sizeof wanted, compare_references);
+    assert_non_null(found);
+    return found->place;
+}
 
 static book *book_read(const unpacked_fmu *fmu)
 {
@@ -27,11 +49,13 @@ static book *book_read(const unpacked_fmu *fmu)
             continue;
         assert_true(self->count < MOST);
         attribute_after(at, "valueReference", reference, sizeof reference);
-        assert_int_equal(atoi(reference), self->count);
+        self->reference[self->count] = (uint32_t)atoi(reference);
+        self->by[self->count] = (referred){self->reference[self->count], self->count};
         self->is_real[self->count] = strncmp(at, "<Float64", 8) == 0;
         attribute_after(at, "name", self->name[self->count], 64);
         attribute_after(at, "causality", self->causality[self->count++], 16);
     }
+    qsort(self->by, self->count, sizeof *self->by, compare_references);
     return self;
 }
 
@@ -47,9 +71,9 @@ static void read_lists(book *self, const char *element)
     snprintf(head, sizeof head, "<%s ", element);
     memset(self->declared, 0, sizeof self->declared);
     for (const char *at = self->fmu->description; (at = strstr(at, head)); at++) {
-        char reference[16], list[8192];
+        char reference[16], list[16384];
         attribute_after(at, "valueReference", reference, sizeof reference);
-        bool *of = self->declared[atoi(reference)];
+        bool *of = self->declared[place_of(self, (uint32_t)atoi(reference))];
         const char *end = strchr(at, '>'), *listed = strstr(at, " dependencies=\"");
         if (!listed || listed > end) {
             memset(of, true, MOST);
@@ -57,7 +81,7 @@ static void read_lists(book *self, const char *element)
         }
         attribute_after(listed, "dependencies", list, sizeof list);
         for (char *word = strtok(list, " "); word; word = strtok(NULL, " "))
-            of[atoi(word)] = true;
+            of[place_of(self, (uint32_t)atoi(word))] = true;
     }
 }
 
@@ -88,12 +112,12 @@ static bool is_asked(const book *self, size_t i)
     return is_output(self, i) || is_rate(self, i) || is_indicator(self, i);
 }
 
-static size_t choose(const book *self, choice *asked, uint32_t *reference)
+static size_t choose(const book *self, choice *asked, size_t *place)
 {
     size_t count = 0;
     for (size_t i = 0; i < self->count; i++)
         if (asked(self, i))
-            reference[count++] = (uint32_t)i;
+            place[count++] = i;
     return count;
 }
 
@@ -101,11 +125,13 @@ static void get(const book *self, void *instance, double *value)
 {
     uint32_t reference[MOST];
     double got[MOST];
-    size_t count = choose(self, is_asked, reference);
+    size_t place[MOST], count = choose(self, is_asked, place);
+    for (size_t i = 0; i < count; i++)
+        reference[i] = self->reference[place[i]];
     assert_int_equal(
         FMU_FUNCTION(self->fmu, fmi3GetFloat64)(instance, reference, count, got, count), fmi3OK);
     for (size_t i = 0; i < count; i++)
-        value[reference[i]] = got[i];
+        value[place[i]] = got[i];
 }
 
 // What is another number than before has reacted to the known.
@@ -121,18 +147,18 @@ static void note(book *self, void *instance, const double *before, size_t known)
 static void move_inputs(book *self, void *instance)
 {
     static double before[MOST];
-    uint32_t input[MOST];
-    size_t count = choose(self, is_input, input);
+    size_t input[MOST], count = choose(self, is_input, input);
     get(self, instance, before);
     for (size_t k = 0; k < count; k++) {
         double value, moved;
-        assert_int_equal(FMU_FUNCTION(self->fmu, fmi3GetFloat64)(instance, &input[k], 1, &value, 1),
+        const uint32_t one = self->reference[input[k]];
+        assert_int_equal(FMU_FUNCTION(self->fmu, fmi3GetFloat64)(instance, &one, 1, &value, 1),
                          fmi3OK);
         moved = value + (strstr(self->name[input[k]], "wrench") ? 100 : 1e-6); // no lock releases
-        assert_int_equal(FMU_FUNCTION(self->fmu, fmi3SetFloat64)(instance, &input[k], 1, &moved, 1),
+        assert_int_equal(FMU_FUNCTION(self->fmu, fmi3SetFloat64)(instance, &one, 1, &moved, 1),
                          fmi3OK);
         note(self, instance, before, input[k]);
-        assert_int_equal(FMU_FUNCTION(self->fmu, fmi3SetFloat64)(instance, &input[k], 1, &value, 1),
+        assert_int_equal(FMU_FUNCTION(self->fmu, fmi3SetFloat64)(instance, &one, 1, &value, 1),
                          fmi3OK);
     }
 }
@@ -251,7 +277,7 @@ static bool is_known(const book *self, size_t i)
 static void move_all(book *self, importer *by)
 {
     static double before[MOST], x[IMPORTER_MOST], nominal[IMPORTER_MOST];
-    size_t first = reference_of(self->fmu, "state.tube.position.x");
+    size_t first = place_of(self, reference_of(self->fmu, "state.tube.position.x"));
     OK_3(by, fmi3GetNominalsOfContinuousStates, nominal, by->states);
     memcpy(x, by->x, by->states * sizeof *x);
     importer_place(by, by->t, x);

@@ -338,10 +338,16 @@ static ld_base_frame swaying(double t)
 static void tell_swaying(importer *self, double t)
 {
     const ld_base_frame base = swaying(t);
-    uint32_t reference[13], first = reference_of(self->fmu, "input.base.position.x");
+    static const char *const of[] = {"position.x",   "position.y",   "position.z",   "quaternion.0",
+                                     "quaternion.1", "quaternion.2", "quaternion.3", "velocity.x",
+                                     "velocity.y",   "velocity.z",   "rate.x",       "rate.y",
+                                     "rate.z"};
+    uint32_t reference[13];
     double value[13];
     for (uint32_t i = 0; i < 13; i++) {
-        reference[i] = first + i;
+        char name[32];
+        snprintf(name, sizeof name, "input.base.%s", of[i]);
+        reference[i] = reference_by(name);
         value[i] = i < 3    ? base.position[i]
                    : i < 7  ? base.quaternion[i - 3]
                    : i < 10 ? base.velocity[i - 7]

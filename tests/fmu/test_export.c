@@ -96,6 +96,13 @@ static fmi3Status set_3(const unpacked_fmu *fmu, void *instance, const char *nam
     return FMU_FUNCTION(fmu, fmi3SetFloat64)(instance, &reference, 1, &value, 1);
 }
 
+static fmi3Status set_count_3(const unpacked_fmu *fmu, void *instance, const char *name,
+                              int32_t value)
+{
+    uint32_t reference = reference_of(fmu, name);
+    return FMU_FUNCTION(fmu, fmi3SetInt32)(instance, &reference, 1, &value, 1);
+}
+
 static const char *const outputs[] = {"rocket.s",
                                       "tip.y",
                                       "rocket.pitch_rate",
@@ -190,11 +197,21 @@ static void returns_at_events(void **state)
 static void parameters_are_overrides(void **state)
 {
     (void)state;
+    static const char *const sets[] = {"rocket.mass=61 kg", "rocket.inertia=0.22 23.9 24 kg.m2",
+                                       "rocket.motor.misalignment=0 2 mrad",
+                                       "tubes.modes.elements=48"};
     unpacked_fmu fmu = fmu_open(EXAMPLE("fixed"), 3);
-    library by = begin_with(EXAMPLE("fixed"), "rocket.mass=61 kg", NULL);
+    library by = library_begin(EXAMPLE("fixed"), sets, 4, NULL);
     void *instance = begin_3(&fmu, false);
-    uint32_t law = reference_of(&fmu, "scenario.rocket.contact.law");
+    uint32_t law = reference_of(&fmu, "scenario.rocket.contact.law"),
+             elements = reference_of(&fmu, "scenario.tubes.modes.elements");
     const char *word;
+    int32_t count;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetInt32)(instance, &elements, 1, &count, 1), fmi3OK);
+    assert_int_equal(count, 60);
+    assert_int_equal(set_count_3(&fmu, instance, "scenario.tubes.modes.elements", 48), fmi3OK);
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.inertia.y", 23.9), fmi3OK);
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.motor.misalignment.z", 0.002), fmi3OK);
     assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetString)(instance, &law, 1, &word, 1), fmi3OK);
     assert_string_equal(word, "hunt-crossley");
     CHECK_BELOW("start of a parameter", value_3(&fmu, instance, "scenario.rocket.mass") - 60, 0);
@@ -465,7 +482,20 @@ static void refuses_wrong_values(void **state)
     assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", NAN), fmi3Error);
     assert_string_equal(logged, "scenario.rocket.mass cannot be nan");
     assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(instance), fmi3OK);
-    assert_int_equal(set_3(&fmu, instance, "scenario.tubes.modes.bending", 5), fmi3OK);
+    assert_int_equal(set_3(&fmu, instance, "scenario.tubes.modes.bending", 5), fmi3Error);
+    assert_string_equal(logged, "scenario.tubes.modes.bending is of another type");
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.inertia.y", -24), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
+    assert_string_equal(
+        logged,
+        "rocket.inertia.y: found \"-24 kg.m2\"; expected a number with a unit of kg.m2, > 0 kg.m2");
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(instance), fmi3OK);
+    assert_int_equal(set_count_3(&fmu, instance, "scenario.tubes.modes.elements", 0), fmi3OK);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
+    assert_string_equal(logged,
+                        "tubes.modes.elements: found \"0\"; expected a whole number from 2 to 400");
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3Reset)(instance), fmi3OK);
+    assert_int_equal(set_count_3(&fmu, instance, "scenario.tubes.modes.bending", 5), fmi3OK);
     assert_int_equal(FMU_FUNCTION(&fmu, fmi3ExitInitializationMode)(instance), fmi3Error);
     assert_non_null(strstr(logged, "export the FMU with them"));
     FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
@@ -515,6 +545,7 @@ static void refuses_null_pointers(void **state)
     NO_POINTER_3(fmi3GetFloat64, one, &law, 1, NULL, 1);
     NO_POINTER_3(fmi3SetFloat64, one, &law, 1, NULL, 1);
     NO_POINTER_3(fmi3SetBoolean, one, NULL, 1, &a, 1);
+    NO_POINTER_3(fmi3GetInt32, one, &law, 1, NULL, 1);
     NO_POINTER_3(fmi3GetString, one, &law, 1, NULL, 1);
     REFUSES_3("the text of scenario.rocket.contact.law is a null pointer", fmi3SetString, one, &law,
               1, &text, 1);
@@ -573,6 +604,13 @@ static void refuses_the_same_in_version_2(void **state)
     REFUSES_2("", fmi2DoStep, NULL, 0, 0.1, 1);
     REFUSES_2("", fmi2GetReal, NULL, &tip, 1, &value);
     REFUSES_2("", fmi2GetInteger, NULL, &tip, 1, NULL);
+    unsigned rows = reference_of(&fmu, "scenario.tubes.layout.rows");
+    int whole = 0;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2GetInteger)(c, &rows, 1, &whole), fmi2OK);
+    assert_int_equal(whole, 3);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi2SetInteger)(c, &rows, 1, &whole), fmi2OK);
+    REFUSES_2("tip.y is of another type", fmi2SetInteger, c, &tip, 1, &whole);
+    NO_POINTER_2(fmi2SetInteger, c, &rows, 1, NULL);
     REFUSES_2("", fmi2NewDiscreteStates, NULL, NULL);
     NO_POINTER_2(fmi2GetReal, c, &tip, 1, NULL);
     NO_POINTER_2(fmi2SetReal, c, NULL, 1, &value);
@@ -596,8 +634,8 @@ static int compare_names(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-// Every variable has a name of its own and the next reference, every output stands in the structure
-// as an output and as an unknown of the start, every unit is defined.
+// Every variable has a name of its own and the reference that follows from it, every output stands
+// in the structure as an output and as an unknown of the start, every unit is defined.
 static void check_description(const char *scenario, int version)
 {
     enum { MOST = 4096 };
@@ -614,11 +652,12 @@ static void check_description(const char *scenario, int version)
         assert_non_null(name[count]);
         attribute_after(at, "name", name[count], 256);
         attribute_after(at, "valueReference", text, sizeof text);
-        assert_int_equal(atoi(text), count);
+        unsigned reference = reference_by(name[count]);
+        assert_int_equal(atoi(text), reference);
         attribute_after(at, "causality", text, sizeof text);
         snprintf(wanted, sizeof wanted,
                  version == 2 ? "<Unknown index=\"%zu\"" : "<Output valueReference=\"%zu\"",
-                 count + (version == 2));
+                 version == 2 ? count + 1 : reference);
         bool listed = strstr(structure, wanted) != NULL;
         bool is_state = strncmp(name[count], "state.", 6) == 0,
              is_rate = strncmp(name[count], "der(", 4) == 0;
@@ -629,7 +668,7 @@ static void check_description(const char *scenario, int version)
                     (is_state || is_rate || strncmp(name[count], "indicator.", 10) == 0));
         snprintf(wanted, sizeof wanted,
                  version == 2 ? "<InitialUnknowns>" : "<InitialUnknown valueReference=\"%zu\"",
-                 count);
+                 (size_t)reference);
         assert_true(!listed || strstr(structure, wanted));
         outputs_there += listed;
         const char *end = strstr(at, "/>"), *unit = strstr(at, " unit=\"");

@@ -51,7 +51,7 @@ static void read_all(fmu_instance *self)
         const fmu_variable *v = &self->variables.item[i];
         if (!fmu_is_output(v))
             continue;
-        assert_int_equal(fmu_get_number(self, i, false, &value, &error), LD_OK);
+        assert_int_equal(fmu_get_number(self, v->reference, FMU_REAL, &value, &error), LD_OK);
         if (v->group != FMU_RESULT)
             continue;
         ld_summary_number(real->summary(self->run), v->name + strlen("summary."), &named, &error);
@@ -103,24 +103,106 @@ static void asks_again_after_a_failure(void **state)
     unpacked_fmu fmu = fmu_open("examples/fixed.yaml", 3);
     fmu_runner counted;
     fmu_instance *self = open_counted(&fmu, &counted);
-    unsigned first = (unsigned)fmu_group_begin(&self->variables, FMU_COLUMN);
+    size_t place = fmu_group_begin(&self->variables, FMU_COLUMN);
+    unsigned first = self->variables.item[place].reference;
     ld_error error;
     double value;
     assert_int_equal(fmu_go(self, &error), LD_OK);
     rows = 0;
     fails = true;
-    assert_int_equal(fmu_get_number(self, first, false, &value, &error), LD_ERR_NUMERIC);
+    assert_int_equal(fmu_get_number(self, first, FMU_REAL, &value, &error), LD_ERR_NUMERIC);
     fails = false;
-    assert_int_equal(fmu_get_number(self, first, false, &value, &error), LD_OK);
+    assert_int_equal(fmu_get_number(self, first, FMU_REAL, &value, &error), LD_OK);
     assert_int_equal(rows, 2);
     fmu_instance_free(self);
     fmu_close(&fmu);
+}
+
+static fmu_instance *open_with(const unpacked_fmu *fmu, bool set_all)
+{
+    ld_error error;
+    fmu_step step;
+    fmu_instance *self = fmu_instance_new(fmu->resources, fmu->token, false, &error);
+    assert_non_null(self);
+    int count[4] = {0};
+    for (size_t i = 0; set_all && i < self->variables.count; i++) {
+        const fmu_variable *v = &self->variables.item[i];
+        fmu_type type = fmu_type_of(v);
+        if (!fmu_is_parameter(v))
+            continue;
+        ld_status status = type == FMU_STRING
+                               ? fmu_set_text(self, v->reference, v->text, &error)
+                               : fmu_set_number(self, v->reference, type, v->start, &error);
+        assert_int_equal(status, LD_OK);
+        count[type]++;
+    }
+    if (set_all)
+        printf("    %d numbers, %d counts, %d texts\n", count[FMU_REAL], count[FMU_INTEGER],
+               count[FMU_STRING]);
+    if (fmu_go(self, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(fmu_step_on(self, self->variables.start, 0.12, false, &step, &error), LD_OK);
+    return self;
+}
+
+// Every parameter set to its start, numbers, counts and texts, is a scenario that says the same.
+static void takes_every_parameter(void **state)
+{
+    (void)state;
+    static const char *const scenarios[] = {"examples/reference.yaml", "examples/ship.yaml",
+                                            "examples/smooth.yaml"};
+    for (int k = 0; k < 3; k++) {
+        unpacked_fmu fmu = fmu_open(scenarios[k], 3);
+        fmu_instance *plain = open_with(&fmu, false), *set = open_with(&fmu, true);
+        int unequal = 0;
+        for (size_t i = 0; i < plain->variables.count; i++) {
+            const fmu_variable *v = &plain->variables.item[i];
+            double a, b;
+            ld_error error;
+            if (!fmu_is_output(v))
+                continue;
+            assert_int_equal(fmu_get_number(plain, v->reference, FMU_REAL, &a, &error), LD_OK);
+            assert_int_equal(fmu_get_number(set, v->reference, FMU_REAL, &b, &error), LD_OK);
+            unequal += memcmp(&a, &b, sizeof a) != 0;
+        }
+        CHECK_BELOW("outputs that differ with every parameter set", unequal, 0);
+        fmu_instance_free(plain);
+        fmu_instance_free(set);
+        fmu_close(&fmu);
+    }
+}
+
+// As many names as share some numbers of 31 bits: each has a reference of its own, by which it is
+// found, and all but those few that which it has alone.
+static void shares_no_reference(void **state)
+{
+    (void)state;
+    enum { NAMES = 200000 };
+    fmu_variables all = {.count = NAMES, .item = calloc(NAMES, sizeof *all.item)};
+    char name[32];
+    int moved = 0;
+    assert_non_null(all.item);
+    for (size_t i = 0; i < NAMES; i++) {
+        snprintf(name, sizeof name, "scenario.x.%zu", i);
+        all.item[i].name = strdup(name);
+        all.item[i].unit = all.item[i].description = all.item[i].text = NULL;
+    }
+    assert_true(fmu_variables_refer(&all));
+    for (size_t i = 0; i < NAMES; i++) {
+        assert_int_equal(fmu_variables_find(&all, all.item[i].reference), i);
+        moved += all.item[i].reference != reference_by(all.item[i].name);
+    }
+    printf("    %d of %d moved\n", moved, NAMES);
+    assert_in_range(moved, 1, 40); // NAMES^2 / 2^32 = 9.3 expected
+    fmu_variables_free(&all);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(asks_once, shell_make, shell_remove),
+        cmocka_unit_test(shares_no_reference),
+        cmocka_unit_test_setup_teardown(takes_every_parameter, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(asks_again_after_a_failure, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

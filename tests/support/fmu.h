@@ -10,7 +10,7 @@
 #include "foreign/unpack.h"
 #include "support/shell.h"
 
-enum { FMU_TEXT_SIZE = 1 << 20, FMU_FOLDER_SIZE = 128 };
+enum { FMU_TEXT_SIZE = 4 << 20, FMU_FOLDER_SIZE = 128 };
 
 typedef struct unpacked_fmu {
     char folder[FMU_FOLDER_SIZE], resources[FMU_FOLDER_SIZE + 32], token[64];
@@ -111,6 +111,16 @@ static inline void fmu_close(unpacked_fmu *self)
 
 // A function of the binary, as the type of the same function of our declarations.
 #define FMU_FUNCTION(fmu, name) (__extension__(__typeof__(&name)) dlsym((fmu)->binary, #name))
+
+// What the value reference of a name is: 64-bit FNV-1a, its halves laid over each other, the lowest
+// 31 bits.
+static inline unsigned reference_by(const char *name)
+{
+    uint64_t digest = UINT64_C(0xcbf29ce484222325);
+    for (; *name; name++)
+        digest = (digest ^ (unsigned char)*name) * UINT64_C(0x100000001b3);
+    return (unsigned)((digest >> 32 ^ digest) % (UINT64_C(1) << 31));
+}
 
 // The value reference of a variable.
 static inline unsigned reference_of(const unpacked_fmu *self, const char *name)
