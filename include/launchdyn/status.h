@@ -7,6 +7,7 @@
 #define LAUNCHDYN_STATUS_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +53,19 @@ ld_status ld_fail(ld_error *error, ld_status status, const char *format, ...) LD
 /// `size` has no room for as "...". The texts of errors are such already. Returns
 /// `visible`.
 char *ld_visible_text(const char *text, char *visible, size_t size);
+
+/// A stream into memory, for what functions print: *text is what was written, with a zero after its
+/// *length bytes, once the stream was closed; free it with ld_free().
+/// @return NULL: no memory
+FILE *ld_text_open(char **text, size_t *length);
+
+/// Closes it.
+/// @return LD_ERR_MEMORY: there was no room for all of it, and *text is NULL
+ld_status ld_text_close(FILE *stream);
+
+/// free(), for programs that have another C library than launchdyn, or none: of every array or text
+/// whose comment says that it is to be freed. NULL is allowed.
+void ld_free(void *memory);
 
 /// The one of `count` names that is nearest to `word` by edit distance, for "did you mean"; NULL if
 /// none is near.

@@ -82,7 +82,7 @@ ld_status ld_study_join(const ld_study *study, const char *folder, const ld_stud
 
 /// The study as bytes, from which a process anywhere reads it without files: the texts that it was
 /// read from.
-/// @param packed to be freed (free()); NULL on failure
+/// @param packed to be freed (ld_free()); NULL on failure
 /// @return LD_OK; LD_ERR_INPUT, its model was not read from a scenario; LD_ERR_MEMORY
 ld_status ld_study_pack(const ld_study *study, void **packed, size_t *size, ld_error *error);
 /// @return as ld_study_read_source(); LD_ERR_INPUT without messages: damaged bytes
@@ -95,7 +95,7 @@ typedef struct ld_study_range {
 
 /// Runs a range of samples for a study that another process keeps, whatever carries the part there.
 /// @param options threads, go_on
-/// @param part to be freed (free()); NULL on failure
+/// @param part to be freed (ld_free()); NULL on failure
 /// @return LD_OK; LD_ERR_INPUT (nothing varies, no such samples), LD_ERR_MEMORY, LD_ERR_INTERRUPTED
 ld_status ld_study_run_range(const ld_study *study, const ld_study_range *range,
                              const ld_study_options *options, void **part, size_t *size,

@@ -288,6 +288,9 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_suggested_name": (_text, [_text, c_void_p, c_size_t]),
     "ld_current_name": (_text, [_text, c_void_p, c_size_t]),
     "ld_nearest_name": (_text, [_text, _texts, c_size_t]),
+    "ld_text_open": (c_void_p, [POINTER(c_void_p), POINTER(c_size_t)]),
+    "ld_text_close": (c_int, [c_void_p]),
+    "ld_free": (None, [c_void_p]),
     # scenario.h
     "ld_messages_free": (None, [_messages]),
     "ld_scenario_explain": (c_bool, [_handle, _error, _messages]),
@@ -538,8 +541,3 @@ def load() -> ctypes.CDLL:
 
 
 library = load()
-libc = ctypes.CDLL(None)
-libc.open_memstream.restype = c_void_p
-libc.open_memstream.argtypes = [POINTER(c_void_p), POINTER(c_size_t)]
-libc.fclose.argtypes = [c_void_p]
-libc.free.argtypes = [c_void_p]

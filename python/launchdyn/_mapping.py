@@ -11,8 +11,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Callable, Optional, Union
 
 from ._interrupt import Interrupt
-from ._library import (GO_ON, ld_error, ld_study_counts, ld_study_options, ld_study_range,
-                       libc, library)
+from ._library import GO_ON, ld_error, ld_study_counts, ld_study_options, ld_study_range, library
 from ._memory import Handle, PathLike, coded_path
 from .errors import LaunchdynError, check
 from .scenario import read_model
@@ -49,7 +48,7 @@ def pack_study(study: Study) -> bytes:
 
 def _taken(memory: ctypes.c_void_p, size: ctypes.c_size_t) -> bytes:
     taken = ctypes.string_at(memory.value or 0, size.value)
-    libc.free(memory)
+    library.ld_free(memory)
     return taken
 
 

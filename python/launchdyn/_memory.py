@@ -11,7 +11,7 @@ from typing import Any, Callable, Iterable, Optional, TypeVar, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._library import libc
+from ._library import library
 
 Array = npt.NDArray[np.float64]
 PathLike = Union[str, "os.PathLike[str]"]
@@ -124,15 +124,17 @@ def texts(items: Iterable[str]) -> Any:
 def printed(write: Callable[[int], Any]) -> str:
     """What `write` prints to the FILE that it is given."""
     text, size = ctypes.c_void_p(), ctypes.c_size_t()
-    stream = libc.open_memstream(ctypes.byref(text), ctypes.byref(size))
+    stream = library.ld_text_open(ctypes.byref(text), ctypes.byref(size))
     if not stream:
         raise MemoryError("no memory for a text")
     try:
         write(stream)
     finally:
-        libc.fclose(stream)
-        whole = ctypes.string_at(text.value or 0, size.value) if text.value else b""
-        libc.free(text)
+        status = library.ld_text_close(stream)
+        whole = ctypes.string_at(text.value, size.value) if text.value else b""
+        library.ld_free(text)
+    if status:
+        raise MemoryError("no memory for a text")
     return text_of(whole)
 
 

@@ -4,19 +4,19 @@
 
 static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-void base64_write(FILE *text, const void *bytes, size_t count)
+void base64_write(text_writer *to, const void *bytes, size_t count)
 {
     const unsigned char *byte = bytes;
     for (; count >= 3; byte += 3, count -= 3) {
         char four[4] = {letters[byte[0] >> 2], letters[(byte[0] & 3) << 4 | byte[1] >> 4],
                         letters[(byte[1] & 15) << 2 | byte[2] >> 6], letters[byte[2] & 63]};
-        fwrite(four, 1, 4, text);
+        text_add(to, four, 4);
     }
     if (count > 0) {
         unsigned second = count > 1 ? byte[1] : 0;
         char four[4] = {letters[byte[0] >> 2], letters[(byte[0] & 3) << 4 | second >> 4],
                         count > 1 ? letters[(second & 15) << 2] : '=', '='};
-        fwrite(four, 1, 4, text);
+        text_add(to, four, 4);
     }
 }
 

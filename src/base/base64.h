@@ -3,9 +3,10 @@
 #define LD_BASE_BASE64_H
 
 #include <stddef.h>
-#include <stdio.h>
 
-void base64_write(FILE *text, const void *bytes, size_t count);
+#include "base/memory_stream.h"
+
+void base64_write(text_writer *to, const void *bytes, size_t count);
 
 // Room for the bytes of a text of `length` letters.
 size_t base64_room(size_t length);

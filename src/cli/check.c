@@ -30,11 +30,11 @@ typedef struct findings {
 static void describe_bodies(const ld_simulation *simulation, findings *found)
 {
     size_t length = 0;
-    FILE *stream = found->bodies ? NULL : open_memstream(&found->bodies, &length);
+    FILE *stream = found->bodies ? NULL : ld_text_open(&found->bodies, &length);
     if (!stream)
         return;
     ld_simulation_describe(simulation, stream);
-    fclose(stream);
+    ld_text_close(stream);
 }
 
 // Whether a run can begin: all that it does before its first step. Where a base is that a program
@@ -179,7 +179,7 @@ int command_check(const command *self, int argc, char **argv)
     code = command_code(found.status);
     ld_messages_free(&found.errors);
     ld_messages_free(&found.notes);
-    free(found.bodies);
+    ld_free(found.bodies);
     ld_model_free(model);
     options_end(&line);
     return code;

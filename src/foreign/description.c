@@ -2,7 +2,6 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +9,7 @@
 
 #include <expat.h>
 
+#include "base/numeric_locale.h"
 #include "base/suggestion.h"
 #include "base/text_file.h"
 
@@ -108,11 +108,9 @@ static bool is_true(const XML_Char **attributes, const char *name)
 static bool number_of(const char *text, double *value)
 {
     char *end;
-    locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    locale_t before = uselocale(plain);
+    locale_t before = numeric_locale_enter();
     *value = strtod(text, &end);
-    uselocale(before);
-    freelocale(plain);
+    numeric_locale_leave(before);
     return end != text && !*end;
 }
 

@@ -49,7 +49,7 @@ static void write_samples(FILE *json, bool *first, const ld_scatter *scatter)
         write_line(json, first, "plan", "random, %d samples", scatter->samples);
 }
 
-static ld_status write_plan(FILE *json, const ld_model *model)
+static void write_plan(FILE *json, const ld_model *model)
 {
     const ld_scatter *scatter = model_scatter(model);
     bool first = true;
@@ -60,25 +60,22 @@ static ld_status write_plan(FILE *json, const ld_model *model)
         write_line(json, &first, "seed", "%d", scatter->seed);
     for (int i = 0; i < scatter->until_count; i++) {
         char text[256];
-        if (scenario_until_text(model, &scatter->until[i], text, sizeof text))
-            return LD_ERR_MEMORY;
+        scenario_until_text(model, &scatter->until[i], text, sizeof text);
         write_line(json, &first, "until half the 95 % interval is at most", "%s", text);
     }
     for (int i = 0; i < model_sweep_count(model); i++)
         write_line(json, &first, "swept", "%s, %d values", model_sweep(model, i)->path,
                    model_sweep(model, i)->count);
     fputc(']', json);
-    return LD_OK;
 }
 
-static ld_status write_factors(FILE *json, const ld_model *model)
+static void write_factors(FILE *json, const ld_model *model)
 {
     const ld_scatter *scatter = model_scatter(model);
     fputs(",\"factors\":[", json);
     for (int i = 0; i < scatter->factor_count; i++) {
         char text[512];
-        if (scenario_factor_text(model, &scatter->factor[i], text, sizeof text))
-            return LD_ERR_MEMORY;
+        scenario_factor_text(model, &scatter->factor[i], text, sizeof text);
         fputs(i ? ",\n[" : "[", json);
         json_write_text(json, scatter->factor[i].path);
         fputc(',', json);
@@ -96,7 +93,6 @@ static ld_status write_factors(FILE *json, const ld_model *model)
         fputc(']', json);
     }
     fputc(']', json);
-    return LD_OK;
 }
 
 ld_status study_write_plan(FILE *json, const study_source *source, int index)
@@ -112,9 +108,8 @@ ld_status study_write_plan(FILE *json, const study_source *source, int index)
         scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages);
     if (!status) {
         fputc(',', json);
-        status = write_plan(json, &model);
-        if (!status)
-            status = write_factors(json, &model);
+        write_plan(json, &model);
+        write_factors(json, &model);
         model_clear(&model);
     } else {
         ld_messages_free(&messages);

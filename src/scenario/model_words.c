@@ -1,7 +1,7 @@
 // A launcher in words: what carries, guides, holds and drives the rocket, a line for each.
 #include <assert.h>
-#include <locale.h>
 
+#include "base/numeric_locale.h"
 #include "base/printed.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/status.h"
@@ -333,7 +333,7 @@ void ld_model_describe(const ld_model *model, FILE *stream)
 {
     if (!model_has_launcher(model))
         return;
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    locale_t before = numeric_locale_enter();
     describe_base(stream, model);
     describe_guide(stream, model);
     describe_slot(stream, &model->tubes.slot);
@@ -341,6 +341,5 @@ void ld_model_describe(const ld_model *model, FILE *stream)
     describe_rocket(stream, model);
     describe_drive(stream, model);
     describe_air(stream, model);
-    uselocale(before);
-    freelocale(plain);
+    numeric_locale_leave(before);
 }

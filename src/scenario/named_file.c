@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 
 #include "base/base64.h"
-#include "base/memory_stream.h"
 #include "base/text_file.h"
 #include "model/fields/digest.h"
 #include "model/fields/source.h"
@@ -36,22 +35,14 @@ static char *folder_of(scenario_reader *reader, const char *name)
 // Puts base64 in place of a mesh's bytes: what a run keeps are texts.
 static ld_status keep_as_text(char **text, size_t *length, ld_error *error)
 {
-    char *kept = NULL;
-    size_t bytes = 0;
+    text_writer kept = {0};
     if (*length < strlen(MESH_FILE_HEAD) ||
         memcmp(*text, MESH_FILE_HEAD, strlen(MESH_FILE_HEAD)) != 0)
         return LD_OK;
-    FILE *stream = memory_stream(&kept, &bytes);
-    if (stream)
-        base64_write(stream, *text, *length);
-    bool fine = stream && fclose(stream) == 0;
+    base64_write(&kept, *text, *length);
     free(*text);
-    *text = kept;
-    *length = bytes;
-    if (fine)
-        return LD_OK;
-    free(kept);
-    return ld_fail(error, LD_ERR_MEMORY, "cannot be read: no memory");
+    *text = text_take(&kept, length);
+    return *text ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "cannot be read: no memory");
 }
 
 // Reads a file into the source, as `within`; NULL after a message.
@@ -151,13 +142,12 @@ static const char *take_digest(scenario_reader *reader, text_place place, const 
 static const ld_source_file *keep_file(scenario_reader *reader, const char *digest,
                                        const char *file_name, const char *within)
 {
-    char *text = NULL, *whole = realpath(file_name, NULL);
+    char *whole = realpath(file_name, NULL);
+    text_writer to = {0};
     size_t length;
-    FILE *stream = whole ? open_memstream(&text, &length) : NULL;
-    if (stream) {
-        fprintf(stream, "%s: %s", digest, whole);
-        fclose(stream);
-    }
+    if (whole)
+        text_print(&to, "%s: %s", digest, whole);
+    char *text = whole ? text_take(&to, &length) : NULL;
     free(whole);
     const ld_source_file *kept = text ? source_add(reader->source, within, text, length) : NULL;
     reader->no_memory |= !kept;

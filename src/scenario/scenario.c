@@ -1,9 +1,9 @@
 // Reading a scenario: files and what they include, overrides, then tree to model.
-#include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/numeric_locale.h"
 #include "base/text_file.h"
 #include "model/fields/field.h"
 #include "model/fields/source.h"
@@ -281,11 +281,9 @@ static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messag
                         .folder = source->folder,
                         .first_line = 1,
                         .within = ""};
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    locale_t before = numeric_locale_enter();
     *messages = (ld_messages){0};
-    if (!plain)
-        reader.no_memory = true;
-    else if (wanted->model)
+    if (wanted->model)
         read_point(&reader, &root, wanted->from, wanted->model);
     else
         note_points(&reader, &root, wanted->from, wanted->to, wanted->notes);
@@ -295,9 +293,7 @@ static ld_status read_wanted(ld_source *source, const reading *wanted, ld_messag
     if (reader.no_memory) // what they say may come of that
         ld_messages_free(messages);
     pool_free(&reader);
-    uselocale(before);
-    if (plain)
-        freelocale(plain);
+    numeric_locale_leave(before);
     return reader.no_memory ? LD_ERR_MEMORY
            : reader.no_file ? LD_ERR_FILE
            : good           ? LD_OK

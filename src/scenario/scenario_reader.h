@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/memory_stream.h"
 #include "launchdyn/scenario.h"
 #include "model/blocks/study.h"
 #include "model/units.h"
@@ -168,7 +169,7 @@ void fill_until(scenario_reader *reader, const tree_node *map, ld_model *model);
 void scenario_fill_optimise(scenario_reader *reader, const tree_node *root, ld_model *model);
 
 // A text in double quotes.
-void scenario_print_text(FILE *stream, const char *text);
+void scenario_print_text(text_writer *to, const char *text);
 
 // The list `paths` of a block that sets several keys under one name, its key; NULL after a message
 // about the block, whose own path is given.

@@ -207,45 +207,42 @@ static bool is_bare(const tree_node *scalar)
            (scalar->plain || !tree_is_empty(&plain));
 }
 
-static void write_scalar(FILE *stream, const tree_node *scalar)
+static void write_scalar(text_writer *to, const tree_node *scalar)
 {
     if (tree_is_empty(scalar))
-        fputc('~', stream);
+        text_put(to, "~");
     else if (is_bare(scalar))
-        fputs(scalar->text, stream);
+        text_put(to, scalar->text);
     else
-        scenario_print_text(stream, scalar->text);
+        scenario_print_text(to, scalar->text);
 }
 
-static void write_value(FILE *stream, const tree_node *node)
+static void write_value(text_writer *to, const tree_node *node)
 {
     if (node->kind == NODE_SCALAR) {
-        write_scalar(stream, node);
+        write_scalar(to, node);
         return;
     }
     bool map = node->kind == NODE_MAP;
-    fputc(map ? '{' : '[', stream);
+    text_put(to, map ? "{" : "[");
     for (const tree_node *member = node->first; member; member = member->next) {
         if (map) {
             const tree_node key = {.kind = NODE_SCALAR, .text = member->key};
-            write_scalar(stream, &key);
-            fputs(": ", stream);
+            write_scalar(to, &key);
+            text_put(to, ": ");
         }
-        write_value(stream, member);
-        fputs(member->next ? ", " : "", stream);
+        write_value(to, member);
+        text_put(to, member->next ? ", " : "");
     }
-    fputc(map ? '}' : ']', stream);
+    text_put(to, map ? "}" : "]");
 }
 
 static char *value_text(const tree_node *value)
 {
-    char *text = NULL;
+    text_writer to = {0};
     size_t length;
-    FILE *stream = memory_stream(&text, &length);
-    if (!stream)
-        return NULL;
-    write_value(stream, value);
-    return fclose(stream) == 0 ? text : NULL;
+    write_value(&to, value);
+    return text_take(&to, &length);
 }
 
 void sweep_fill(scenario_reader *reader, const scenario_sweep *sweep, ld_model *model)

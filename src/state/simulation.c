@@ -1,9 +1,9 @@
 #include "state/simulation.h"
 
-#include <locale.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/numeric_locale.h"
 #include "model/salvo.h"
 
 ld_simulation *simulation_make(ld_error *error)
@@ -43,10 +43,9 @@ void ld_simulation_describe(const ld_simulation *self, FILE *stream)
     const base_system *base = &self->launcher.base;
     if (!base->kind || !base->kind->describe)
         return;
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
+    locale_t before = numeric_locale_enter();
     base->kind->describe(base, stream);
-    uselocale(before);
-    freelocale(plain);
+    numeric_locale_leave(before);
 }
 
 const motor *simulation_motor(const ld_simulation *self, int i)

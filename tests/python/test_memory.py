@@ -11,7 +11,6 @@ from unittest import mock
 import launchdyn as ld
 import numpy as np
 from launchdyn import _memory
-from launchdyn._library import libc
 from support import EXAMPLES, FIXED, Case, external, resting_frame, scattered
 
 
@@ -24,6 +23,7 @@ class Heap(ctypes.Structure):
                  "uordblks", "fordblks", "keepcost")]
 
 
+libc = ctypes.CDLL(None)
 libc.mallinfo2.restype = Heap
 
 

@@ -1,8 +1,8 @@
 #include "scenario/measured/block_file.h"
 
-#include <locale.h>
 #include <stdlib.h>
 
+#include "base/numeric_locale.h"
 #include "base/text_file.h"
 
 // The first message as a sentence with its place.
@@ -29,9 +29,8 @@ ld_status block_file_read(const char *path, block_taker *take, void *self, ld_er
     scenario_reader reader = {.messages = &messages};
     const text_source source = {
         .name = path, .text = text, .length = length, .folder = "", .first_line = 1, .within = ""};
-    locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
-    reader.no_memory = !plain;
-    const tree_node *root = plain ? tree_parse(&reader, &source, text, length, 1) : NULL;
+    locale_t before = numeric_locale_enter();
+    const tree_node *root = tree_parse(&reader, &source, text, length, 1);
     if (root && root->kind == NODE_MAP)
         take(&reader, root, self);
     else if (root)
@@ -40,9 +39,7 @@ ld_status block_file_read(const char *path, block_taker *take, void *self, ld_er
     status = fail_by_messages(&reader, path, error);
     ld_messages_free(&messages);
     pool_free(&reader);
-    uselocale(before);
-    if (plain)
-        freelocale(plain);
+    numeric_locale_leave(before);
     free(text);
     return status;
 }
