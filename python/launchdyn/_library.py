@@ -220,6 +220,11 @@ class ld_response_wish(Structure):
                 ("watch", POINTER(ld_watch))]
 
 
+class ld_fmu_options(Structure):
+    _fields_ = [("part", c_int), ("version", c_int), ("outputs", c_char_p),
+                ("parameters", c_char_p), ("reserved", c_void_p * 4)]
+
+
 class ld_stretch(Structure):
     _fields_ = [("from", c_double), ("to", c_double), ("step", c_double)]
 
@@ -391,7 +396,7 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_optimise_print_json": (None, [_handle, c_void_p]),
     "ld_optimise_plot": (c_int, [_handle, _text, _error]),
     "ld_optimise_free": (None, [_handle]),
-    "ld_fmu_export": (c_int, [_handle, c_int, c_int, _text, _error]),
+    "ld_fmu_export": (c_int, [_handle, POINTER(ld_fmu_options), _text, _error]),
     "ld_figure_at": (POINTER(ld_figure), [c_size_t]),
     "ld_plot": (c_int, [POINTER(ld_picture), _text, _error]),
     # response.h, loop.h; arrays of numpy are a c_void_p

@@ -11,8 +11,8 @@ from typing import Any, Callable, Optional, Type, Union
 
 import numpy as np
 
-from ._library import (ld_error, ld_messages, ld_response_wish, ld_stretch, ld_wind_section,
-                       library)
+from ._library import (ld_error, ld_fmu_options, ld_messages, ld_response_wish, ld_stretch,
+                       ld_wind_section, library)
 from ._memory import Array, Handle, PathLike, coded, coded_path, printed, text_of, texts
 from ._progress import Progress
 from ._values import Key, Sets, key_of, scenario_text, set_texts
@@ -276,16 +276,18 @@ class Scenario:
         a rocket at a `height` above ground, along a line of a `length`, `step` apart [m]."""
         return View("wind", self.handle, ld_wind_section(height, top, length, step, rocket))
 
-    def export_fmu(self, file: PathLike, part: str = "all", version: int = 3) -> None:
+    def export_fmu(self, file: PathLike, part: str = "all", version: int = 3,
+                   outputs: Optional[str] = None, parameters: Optional[str] = None) -> None:
         """Writes a Functional Mock-up Unit (docs/fmi.md) of the launch: `part` "all", "vehicle"
-        or "launcher", `version` of FMI 2 or 3."""
+        or "launcher", `version` of FMI 2 or 3; `outputs` and `parameters` that it has, such as
+        "tip.*,summary.*" and "rocket.*", None: all."""
         error = ld_error()
         parts = ("all", "vehicle", "launcher")
         if part not in parts:
             raise ValueError(f"expected a part, one of {', '.join(parts)}; found {part!r}")
-        check(library.ld_fmu_export(self.handle.pointer, parts.index(part), version,
-                                    coded_path(file), ctypes.byref(error)), error,
-              self.handle.pointer)
+        options = ld_fmu_options(parts.index(part), version, _coded(outputs), _coded(parameters))
+        check(library.ld_fmu_export(self.handle.pointer, ctypes.byref(options), coded_path(file),
+                                    ctypes.byref(error)), error, self.handle.pointer)
 
 
 def _coded(text: Optional[str]) -> Optional[bytes]:

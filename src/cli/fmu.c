@@ -8,9 +8,8 @@
 #include "launchdyn/scenario.h"
 
 typedef struct wishes {
-    ld_fmu_part part;
-    int version; // of FMI; 0: the usual one
-    bool system; // vehicle and launcher in an archive of SSP
+    ld_fmu_options options; // its version 0: the usual one
+    bool system;            // vehicle and launcher in an archive of SSP
     const char *out;
 } wishes;
 
@@ -18,10 +17,11 @@ static int export(const ld_model *model, void *data)
 {
     const wishes *self = data;
     ld_error error;
-    // tools for SSP 1.0 know FMI 2 alone
-    int version = self->version ? self->version : self->system ? 2 : 3;
-    ld_status status = self->system ? ld_ssp_export(model, version, self->out, &error)
-                                    : ld_fmu_export(model, self->part, version, self->out, &error);
+    ld_fmu_options options = self->options;
+    if (options.version == 0)
+        options.version = self->system ? 2 : 3; // tools for SSP 1.0 know FMI 2 alone
+    ld_status status =
+        (self->system ? ld_ssp_export : ld_fmu_export)(model, &options, self->out, &error);
     if (!status)
         command_step("wrote %s", self->out);
     return status ? command_fail_on(model, status, &error) : 0;
@@ -47,12 +47,18 @@ static bool find_part(const char *name, ld_fmu_part *part)
 int command_fmu(const command *self, int argc, char **argv)
 {
     char **sets = NULL, *out = NULL, *part = NULL, *archive = NULL;
+    char *outputs = NULL, *parameters = NULL;
     wishes what = {0};
     const command_option options[] = {
         COMMAND_SETS(&sets),
         {"part", '\0', OPTION_TEXT, &part, "Part of the model to export (all)",
          "all|vehicle|launcher"},
-        {"fmi", '\0', OPTION_INTEGER, &what.version, "Version of FMI (3; for --ssp 2)", "2|3"},
+        {"fmi", '\0', OPTION_INTEGER, &what.options.version, "Version of FMI (3; for --ssp 2)",
+         "2|3"},
+        {"outputs", '\0', OPTION_TEXT, &outputs,
+         "Outputs that it has, * for any letters: tip.*,summary.* (all)", "NAME,..."},
+        {"parameters", '\0', OPTION_TEXT, &parameters,
+         "Parameters that it has, likewise by key: rocket.* (all)", "KEY,..."},
         {"out", 'o', OPTION_TEXT, &out, "File of the FMU", "FILE"},
         {"ssp", '\0', OPTION_TEXT, &archive,
          "Write vehicle and launcher as an SSP archive in place of an FMU", "FILE"},
@@ -62,6 +68,8 @@ int command_fmu(const command *self, int argc, char **argv)
     if (command_line_read(&line, self, argc, argv, options, &code)) {
         what.out = archive ? archive : out;
         what.system = archive != NULL;
+        what.options.outputs = outputs;
+        what.options.parameters = parameters;
         if (line.count != 2 || strcmp(line.word[0], "export") != 0 || !what.out) {
             command_complain(
                 "fmu requires export FILE and --out FILE or --ssp FILE; see launchdyn fmu --help");
@@ -69,7 +77,7 @@ int command_fmu(const command *self, int argc, char **argv)
         } else if (archive && (out || part)) {
             command_complain("--ssp exports both parts; it excludes --out and --part");
             code = EXIT_INPUT;
-        } else if (part && !find_part(part, &what.part)) {
+        } else if (part && !find_part(part, &what.options.part)) {
             code = EXIT_INPUT;
         } else {
             code = command_on_file(line.word[1], sets, export, &what);

@@ -1,5 +1,6 @@
 // Packs an FMU: description, binary, resources, notices.
 #include <ctype.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,22 +9,26 @@
 #include "base/numeric_locale.h"
 #include "fmu/fmu_description.h"
 #include "fmu/fmu_inside.h"
+#include "fmu/fmu_selection.h"
 #include "fmu/fmu_source.h"
 #include "fmu/package.h"
 #include "foreign/unpack.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
 #include "math/functions.h"
+#include "model/fields/digest.h"
 #include "model/fields/source.h"
 #include "model/model.h"
 
-enum { NAME_SIZE = 512, IDENTIFIER_SIZE = 80 };
+enum { NAME_SIZE = 512, IDENTIFIER_SIZE = 64 }; // MATLAB cuts longer names
 
 // ---- what goes in ----
 
 typedef struct contents {
     const ld_model *model;
-    int version;
+    ld_fmu_options options;
+    bool checked; // what is selected must be there
+    char token[FMU_TOKEN_SIZE];
     char identifier[IDENTIFIER_SIZE];
     char *scenario, *description, *list, *part;
     size_t scenario_length, description_length, list_length, part_length;
@@ -75,31 +80,38 @@ static void add_words(char *identifier, size_t size, const char *text)
     identifier[length] = '\0';
 }
 
-// A name of C: several FMUs may be open in one importer that distinguishes their binaries by it.
-static void make_identifier(const ld_model *model, ld_fmu_part part,
-                            char identifier[IDENTIFIER_SIZE])
+// A name of C, another one for every other FMU: several may be open in one importer that
+// distinguishes their binaries by it.
+static void make_identifier(contents *self)
 {
-    enum { LONGEST_TITLE = 64 };
-    strcpy(identifier, "launchdyn");
-    add_words(identifier, LONGEST_TITLE, model->title ? model->title : "");
-    if (part != LD_FMU_ALL)
-        add_words(identifier, IDENTIFIER_SIZE, fmu_part_name(part));
+    enum { LONGEST_TITLE = 44 };
+    const ld_fmu_options *options = &self->options;
+    const char *texts[] = {self->token, options->outputs, "/", options->parameters};
+    uint64_t digest = digest_bytes(DIGEST_BEGIN, &(char){(char)options->version}, 1);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        digest = digest_bytes(digest, texts[i] ? texts[i] : "*", strlen(texts[i] ? texts[i] : "*"));
+    strcpy(self->identifier, "launchdyn");
+    add_words(self->identifier, LONGEST_TITLE, self->model->title ? self->model->title : "");
+    if (options->part != LD_FMU_ALL)
+        add_words(self->identifier, IDENTIFIER_SIZE, fmu_part_name(options->part));
+    size_t length = strlen(self->identifier);
+    snprintf(self->identifier + length, IDENTIFIER_SIZE - length, "_%08" PRIx32,
+             (uint32_t)(digest ^ digest >> 32));
 }
 
-static ld_status print_description(const fmu_part *part, const fmu_variables *variables,
-                                   contents *self, ld_error *error)
+static ld_status print_description(const fmu_variables *variables, contents *self, ld_error *error)
 {
-    char token[FMU_TOKEN_SIZE], title[NAME_SIZE];
-    fmu_description description = {.version = self->version,
+    char title[NAME_SIZE];
+    fmu_description description = {.version = self->options.version,
                                    .title = title,
-                                   .token = token,
+                                   .token = self->token,
                                    .identifier = self->identifier,
                                    .start = variables->start,
                                    .stop = variables->stop,
                                    .variables = variables};
-    fmu_token(self->scenario, self->scenario_length, part->which, token);
-    name_part(self->model, part->which, title);
-    make_identifier(self->model, part->which, self->identifier);
+    fmu_token(self->scenario, self->scenario_length, self->options.part, self->token);
+    name_part(self->model, self->options.part, title);
+    make_identifier(self);
     ld_model_number(self->model, "run.tolerance", &description.tolerance, NULL);
     FILE *stream = memory_stream(&self->description, &self->description_length);
     if (stream)
@@ -150,15 +162,20 @@ ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part 
     return status;
 }
 
-static ld_status describe(ld_fmu_part which, contents *self, ld_error *error)
+static ld_status describe(contents *self, ld_error *error)
 {
     fmu_part part;
     fmu_variables variables;
-    ld_status status = fmu_part_variables(which, self->model, &part, &variables, error);
+    ld_status status =
+        fmu_part_variables(self->options.part, self->model, &part, &variables, error);
+    if (!status && self->checked)
+        status = fmu_selection_check(&self->options, &variables, 1, error);
     if (!status)
         status = print_part(&part, self, error);
-    if (!status)
-        status = print_description(&part, &variables, self, error);
+    if (!status) {
+        fmu_selection_take(&self->options, &variables);
+        status = print_description(&variables, self, error);
+    }
     fmu_variables_free(&variables);
     return status;
 }
@@ -180,7 +197,8 @@ static void put_all(package *self, const void *data)
     const contents *from = data;
     char binary[IDENTIFIER_SIZE + 32];
     snprintf(binary, sizeof binary, "binaries/%s/%s.so",
-             from->version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, from->identifier);
+             from->options.version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3,
+             from->identifier);
     package_put(self, "modelDescription.xml", from->description, from->description_length);
     package_put(self, binary, fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
     package_put(self, "resources/" FMU_SCENARIO_FILE, from->scenario, from->scenario_length);
@@ -190,13 +208,13 @@ static void put_all(package *self, const void *data)
                 (size_t)(fmu_notices_end - fmu_notices));
 }
 
-ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, const char *file,
-                        ld_error *error)
+static ld_status export_checked(const ld_model *model, const ld_fmu_options *options, bool checked,
+                                const char *file, ld_error *error)
 {
-    contents from = {.model = model, .version = version};
+    contents from = {.model = model, .options = *options, .checked = checked};
     char kind[16];
-    if (version != 2 && version != 3)
-        return ld_fail(error, LD_ERR_INPUT, "found FMI %d, expected 2 or 3", version);
+    if (options->version != 2 && options->version != 3)
+        return ld_fail(error, LD_ERR_INPUT, "found FMI %d, expected 2 or 3", options->version);
     if (!ld_model_text(model, "base.kind", kind, sizeof kind, NULL) && strcmp(kind, "fmu") == 0)
         return ld_fail(
             error, LD_ERR_INPUT,
@@ -206,7 +224,7 @@ ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, co
     locale_t before = numeric_locale_enter();
     ld_status status = print_scenario(model, &from, error);
     if (!status)
-        status = describe(part, &from, error);
+        status = describe(&from, error);
     numeric_locale_leave(before);
     if (!status)
         status = package_write(file, put_all, &from, error);
@@ -215,4 +233,16 @@ ld_status ld_fmu_export(const ld_model *model, ld_fmu_part part, int version, co
     free(from.part);
     free(from.description);
     return status;
+}
+
+ld_status ld_fmu_export(const ld_model *model, const ld_fmu_options *options, const char *file,
+                        ld_error *error)
+{
+    return export_checked(model, options, true, file, error);
+}
+
+ld_status fmu_export_part(const ld_model *model, const ld_fmu_options *options, const char *file,
+                          ld_error *error)
+{
+    return export_checked(model, options, false, file, error);
 }

@@ -21,15 +21,18 @@
 
 enum { NAME_SIZE = 256, TEXT_SIZE = 1024, MOST_MEMBERS = 64 };
 
+void fmu_variable_free(fmu_variable *self)
+{
+    free(self->name);
+    free(self->unit);
+    free(self->description);
+    free(self->text);
+}
+
 void fmu_variables_free(fmu_variables *self)
 {
-    for (size_t i = 0; i < self->count; i++) {
-        fmu_variable *v = &self->item[i];
-        free(v->name);
-        free(v->unit);
-        free(v->description);
-        free(v->text);
-    }
+    for (size_t i = 0; i < self->count; i++)
+        fmu_variable_free(&self->item[i]);
     free(self->item);
     free(self->order);
     *self = (fmu_variables){0};

@@ -9,6 +9,7 @@
 #include "base/numeric_locale.h"
 #include "base/text_file.h"
 #include "fmu/fmu_description.h"
+#include "fmu/fmu_selection.h"
 #include "fmu/package.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
@@ -22,6 +23,7 @@ static const ld_fmu_part parts[PARTS] = {LD_FMU_VEHICLE, LD_FMU_LAUNCHER};
 // What the archive holds, of each part.
 typedef struct system_structure {
     const ld_model *model;
+    const ld_fmu_options *options;
     fmu_variables variables[PARTS];
     char *fmu[PARTS];
     size_t fmu_length[PARTS];
@@ -98,13 +100,14 @@ static void write_structure(FILE *stream, const system_structure *self)
 // ---- the archive ----
 
 // The FMU of a part, by way of a file beside the archive.
-static ld_status make_fmu(system_structure *self, int k, int version, const char *file,
-                          ld_error *error)
+static ld_status make_fmu(system_structure *self, int k, const char *file, ld_error *error)
 {
     char path[PATH_SIZE];
     ld_error why;
+    ld_fmu_options options = *self->options;
+    options.part = parts[k];
     snprintf(path, sizeof path, "%.4000s.%s", file, fmu_part_name(parts[k]));
-    ld_status status = ld_fmu_export(self->model, parts[k], version, path, error);
+    ld_status status = fmu_export_part(self->model, &options, path, error);
     if (status)
         return status;
     status = text_file_read(path, FMU_BYTES, &self->fmu[k], &self->fmu_length[k], &why);
@@ -121,6 +124,11 @@ static ld_status describe(system_structure *self, ld_error *error)
         if (status)
             return status;
     }
+    ld_status status = fmu_selection_check(self->options, self->variables, PARTS, error);
+    if (status)
+        return status;
+    for (int k = 0; k < PARTS; k++)
+        fmu_selection_take(self->options, &self->variables[k]);
     FILE *stream = memory_stream(&self->structure, &self->structure_length);
     if (stream)
         write_structure(stream, self);
@@ -138,16 +146,15 @@ static void put_all(package *self, const void *data)
     }
 }
 
-ld_status ld_ssp_export(const ld_model *model, int version, const char *file, ld_error *error)
+ld_status ld_ssp_export(const ld_model *model, const ld_fmu_options *options, const char *file,
+                        ld_error *error)
 {
-    system_structure self = {.model = model};
-    ld_status status = LD_OK;
-    for (int k = 0; k < PARTS && !status; k++)
-        status = make_fmu(&self, k, version, file, error);
+    system_structure self = {.model = model, .options = options};
     locale_t before = numeric_locale_enter();
-    if (!status)
-        status = describe(&self, error);
+    ld_status status = describe(&self, error);
     numeric_locale_leave(before);
+    for (int k = 0; k < PARTS && !status; k++)
+        status = make_fmu(&self, k, file, error);
     if (!status)
         status = package_write(file, put_all, &self, error);
     for (int k = 0; k < PARTS; k++) {

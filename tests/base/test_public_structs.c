@@ -6,6 +6,7 @@
 #include "launchdyn/derivatives.h"
 #include "launchdyn/environment.h"
 #include "launchdyn/fit.h"
+#include "launchdyn/fmu.h"
 #include "launchdyn/history.h"
 #include "launchdyn/loop.h"
 #include "launchdyn/model.h"
@@ -33,6 +34,7 @@
 // Asked for by the caller: may grow into what is reserved.
 SIZE(ld_compare_options, 80);
 SIZE(ld_fit_options, 80);
+SIZE(ld_fmu_options, 56);
 SIZE(ld_derivative_key, 16);
 SIZE(ld_derivative_options, 64);
 SIZE(ld_optimise_options, 72);

@@ -730,8 +730,10 @@ static void is_named_and_timed(void **state)
         snprintf(wanted, sizeof wanted, "Its 2 &amp; &lt;b&gt;%s", after[i]);
         assert_string_equal(name, wanted);
         attribute_after(fmu.description, "modelIdentifier", name, sizeof name);
-        snprintf(wanted, sizeof wanted, "launchdyn_its_2_b%s", behind[i]);
-        assert_string_equal(name, wanted);
+        snprintf(wanted, sizeof wanted, "launchdyn_its_2_b%s_", behind[i]);
+        assert_memory_equal(name, wanted, strlen(wanted));
+        assert_int_equal(strspn(name + strlen(wanted), "0123456789abcdef"), 8);
+        assert_int_equal(strlen(name), strlen(wanted) + 8);
         CHECK_BELOW("start [s]", experiment_of(&fmu, "startTime") + 0.1, 0);
         // the rocket is out at 0.1595 s, 0.2595 s after the start
         CHECK_BELOW("stop [s]", experiment_of(&fmu, "stopTime") - 0.16, 1e-12);
@@ -741,6 +743,90 @@ static void is_named_and_timed(void **state)
     CHECK_BELOW("stop of one that ends when it is told to [s]",
                 experiment_of(&stuck, "stopTime") - 0.3, 1e-12);
     fmu_close(&stuck);
+}
+
+static int count_of(const char *text, const char *word)
+{
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, word)); at++)
+        count++;
+    return count;
+}
+
+// What is chosen is there, with the references that all of it has, and reports the same; it is
+// found nowhere else in the description.
+static void has_what_is_chosen(void **state)
+{
+    (void)state;
+    unpacked_fmu all = fmu_open(EXAMPLE("fixed"), 3);
+    char names[4][128];
+    static const char *const chosen[] = {"", " --parameters ''",
+                                         " --outputs 'rocket.s,tip.*,summary.*.exit_speed'",
+                                         " --outputs 'rocket.s,tip.*,summary.*.exit_speed' "
+                                         "--parameters 'rocket.*,tubes.modes.bend*'"};
+    for (int i = 0; i < 4; i++) {
+        char line[256];
+        snprintf(line, sizeof line, EXAMPLE("fixed") "%s --set title=\"$(printf %%0200d)\"",
+                 chosen[i]);
+        unpacked_fmu fmu = fmu_open(line, 2 + i % 2);
+        attribute_after(fmu.description, "modelIdentifier", names[i], sizeof names[i]);
+        assert_true(strlen(names[i]) < 64);
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(names[k], names[i]);
+        fmu_close(&fmu);
+    }
+
+    unpacked_fmu fmu = fmu_open("examples/fixed.yaml --outputs 'rocket.s,tip.*,*.exit_speed' "
+                                "--parameters 'rocket.mass,scenario.tubes.modes.bend*'",
+                                3);
+    assert_int_equal(count_of(fmu.description, "name=\"scenario."), 2);
+    assert_int_equal(count_of(fmu.description, "name=\"tip."),
+                     count_of(all.description, "name=\"tip."));
+    int outputs_there = count_of(fmu.description, "causality=\"output\"");
+    assert_int_equal(outputs_there, 2 + count_of(all.description, "name=\"tip."));
+    assert_int_equal(count_of(fmu.description, "<Output "), outputs_there);
+    assert_int_equal(count_of(fmu.description, "<ContinuousStateDerivative "),
+                     count_of(all.description, "<ContinuousStateDerivative "));
+    void *instance = begin_3(&fmu, false), *whole = begin_3(&all, false);
+    static const char *const common[] = {"rocket.s", "tip.y", "summary.rocket.1.exit_speed"};
+    assert_int_equal(set_3(&fmu, instance, "scenario.rocket.mass", 61), fmi3OK);
+    assert_int_equal(set_3(&all, whole, "scenario.rocket.mass", 61), fmi3OK);
+    start_3(&fmu, instance, 0);
+    start_3(&all, whole, 0);
+    step_3(&fmu, instance, 0, 0.15);
+    step_3(&all, whole, 0, 0.15);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(reference_of(&fmu, common[i]), reference_of(&all, common[i]));
+        assert_true(same(value_3(&fmu, instance, common[i]), value_3(&all, whole, common[i])));
+    }
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    FMU_FUNCTION(&all, fmi3FreeInstance)(whole);
+    fmu_close(&fmu);
+    fmu_close(&all);
+
+    fmu = fmu_open("examples/reference.yaml --part launcher --outputs '' --parameters ''", 2);
+    assert_int_equal(count_of(fmu.description, "causality=\"output\""), 6); // the wrench
+    assert_int_equal(count_of(fmu.description, "name=\"scenario."), 0);
+    fmu_close(&fmu);
+
+    assert_int_equal(run("launchdyn fmu export examples/fixed.yaml --outputs tip.q --out x.fmu"),
+                     2);
+    assert_string_equal(shell.err,
+                        "launchdyn: found no output \"tip.q\"; did you mean \"tip.y\"?\n");
+    // of an archive, what one of the parts has
+    assert_int_equal(run("launchdyn fmu export examples/reference.yaml --set run.lead_in=0s "
+                         "--outputs chassis.x,tip.y --ssp x.ssp"),
+                     0);
+    assert_int_equal(
+        run("test $(unzip -p x.ssp SystemStructure.ssd | grep -c 'kind=.output') = 21"), 0);
+    assert_int_equal(run("launchdyn fmu export examples/reference.yaml --set run.lead_in=0s "
+                         "--outputs chassis.x,tip.q --ssp x.ssp"),
+                     2);
+    assert_int_equal(run("launchdyn fmu export examples/fixed.yaml --parameters 'rocket.mas,tip.y' "
+                         "--out x.fmu"),
+                     2);
+    assert_string_equal(shell.err, "launchdyn: found no parameter \"rocket.mas\"; did you mean "
+                                   "\"rocket.mass\"?\n");
 }
 
 // ---- two at a time ----
@@ -802,6 +888,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(refuses_the_same_in_version_2, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_described, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_named_and_timed, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(has_what_is_chosen, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(go_side_by_side, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

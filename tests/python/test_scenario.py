@@ -180,6 +180,12 @@ run: {end: tip}
             ld.Scenario.read(FIXED).export_fmu(file, **words)
             with zipfile.ZipFile(file) as package:
                 self.assertIn(said, package.read("modelDescription.xml").decode())
+        ld.Scenario.read(FIXED).export_fmu(file, outputs="tip.y,*.exit_speed", parameters="")
+        with zipfile.ZipFile(file) as package:
+            text = package.read("modelDescription.xml").decode()
+        self.assertEqual((text.count('causality="output"'), text.count('name="scenario.')), (2, 0))
+        with self.assertRaisesRegex(ld.InputError, 'no output "tip.q"'):
+            ld.Scenario.read(FIXED).export_fmu(file, outputs="tip.q")
         with self.assertRaisesRegex(ValueError, "one of all, vehicle, launcher"):
             ld.Scenario.read(FIXED).export_fmu(file, part="lunch")
         with self.assertRaises(ld.InputError):
