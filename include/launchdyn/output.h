@@ -86,6 +86,12 @@ typedef struct ld_figure {
 /// The standard figures, by index from 0; NULL after the last.
 const ld_figure *ld_figure_at(size_t index);
 
+/// How a scene in three dimensions is written.
+typedef struct ld_scene {
+    double magnify; ///< deflections of tubes and beams so many times, up to 100000
+    double slower;  ///< played so many times slower than the launch, up to 100000
+} ld_scene;
+
 /// A page of figures, one below the other.
 typedef struct ld_picture {
     const char *const *folder; ///< results of `folder_count` runs, at most 8; several are laid one
@@ -95,16 +101,19 @@ typedef struct ld_picture {
                                ///< columns for; none: tip, contact and relative, or of a flight
                                ///< alone trajectory and flight
     size_t figure_count;
-    double from, to;   ///< [s] from ignition; NaN: what the figure shows on its own
-    char *note;        ///< NULL, or [LD_ERROR_TEXT]: becomes "", or why it is not known
-                       ///< whether a history that was drawn is whole
-    const char *style; ///< "screen" (NULL), "dark", or "paper": 84 mm wide, without a title
-    double width;      ///< [m] 0: as the style has it; else 0.05 to 0.5, letters stay as large
-    const void *reserved[1]; ///< NULL: room for what later versions may be asked
+    double from, to;       ///< [s] from ignition; NaN: what the figure shows on its own
+    char *note;            ///< NULL, or [LD_ERROR_TEXT]: becomes "", or why it is not known
+                           ///< whether a history that was drawn is whole
+    const char *style;     ///< "screen" (NULL), "dark", or "paper": 84 mm wide, without a title
+    double width;          ///< [m] 0: as the style has it; else 0.05 to 0.5, letters stay as large
+    const ld_scene *scene; ///< of a .glb; NULL: true deflections, true time
 } ld_picture;
 
-/// Draws a page with gnuplot, which must be in PATH.
-/// @param file the picture; its ending says what it becomes: .svg, .pdf or .png
+/// Draws a page with gnuplot, which must be in PATH; or writes the moving launcher of one run as a
+/// scene in three dimensions.
+/// @param file the picture; its ending says what it becomes: .svg, .pdf or .png, or .glb (binary
+///             glTF 2.0: `figure`, `style` and `width` are not given; `to` NaN: up to the last row
+///             of the launch)
 /// @return LD_OK, LD_ERR_INPUT (unknown figure or ending, no history in a folder, or one that is
 /// not
 ///         as it was written), LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_MISSING (no gnuplot)

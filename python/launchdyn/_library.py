@@ -238,11 +238,15 @@ class ld_figure(Structure):
     _fields_ = [("name", c_char_p), ("description", c_char_p)]
 
 
+class ld_scene(Structure):
+    _fields_ = [("magnify", c_double), ("slower", c_double)]
+
+
 class ld_picture(Structure):
     _fields_ = [("folder", POINTER(c_char_p)), ("folder_count", c_size_t),
                 ("figure", POINTER(c_char_p)), ("figure_count", c_size_t), ("from", c_double),
                 ("to", c_double), ("note", c_void_p), ("style", c_char_p), ("width", c_double),
-                ("reserved", c_void_p * 1)]
+                ("scene", POINTER(ld_scene))]
 
 
 class ld_compare_options(Structure):

@@ -16,7 +16,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from ._interrupt import Interrupt
-from ._library import GO_ON, ld_error, ld_picture, ld_response_wish, ld_watch, library
+from ._library import GO_ON, ld_error, ld_picture, ld_scene, ld_response_wish, ld_watch, library
 from ._memory import Array, Handle, coded, coded_path, printed, text_of, texts
 from .errors import check
 
@@ -90,9 +90,11 @@ def figures() -> dict[str, str]:
 
 def draw(file: PathLike, *folders: PathLike, figures: Sequence[str] = (),
          start: float = math.nan, end: float = math.nan, style: Optional[str] = None,
-         width: float = 0) -> None:
+         width: float = 0, magnify: Optional[float] = None,
+         slower: Optional[float] = None) -> None:
     """Draws standard figures of the runs in some folders by gnuplot, several laid one over the
-    other: file.svg, file.pdf or file.png.
+    other: file.svg, file.pdf or file.png; or writes one run's moving launcher for programs that
+    draw in three dimensions: file.glb, with deflections `magnify` times, `slower` times as slow.
 
     `figures` are names of figures(), "all": all that there are columns for; none: a choice.
     `start` and `end` are times from ignition [s]; `style` is "screen", "dark" or "paper"; `width`
@@ -102,6 +104,9 @@ def draw(file: PathLike, *folders: PathLike, figures: Sequence[str] = (),
     wanted = [os.fsdecode(folder) for folder in folders]
     picture = ld_picture(texts(wanted), len(wanted), texts(figures), len(figures), start, end,
                          ctypes.addressof(note), coded(style) if style else None, width)
+    if magnify is not None or slower is not None:
+        picture.scene = ctypes.pointer(ld_scene(1 if magnify is None else magnify,
+                                                1 if slower is None else slower))
     check(library.ld_plot(ctypes.byref(picture), coded_path(file), ctypes.byref(error)), error)
     if note.value:
         warnings.warn(text_of(note.value), stacklevel=2)

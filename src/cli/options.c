@@ -31,7 +31,8 @@ static ld_status take_number(const command_option *option, ld_error *error)
     static const char *const units[] = {[OPTION_METRES] = "m",
                                         [OPTION_MILLIMETRES] = "mm",
                                         [OPTION_MILLISECONDS] = "ms",
-                                        [OPTION_HERTZ] = "Hz"};
+                                        [OPTION_HERTZ] = "Hz",
+                                        [OPTION_NUMBER] = "1"};
     ld_error why;
     if (ld_read_quantity(optarg, units[option->kind], option->value, &why))
         return ld_fail(error, LD_ERR_INPUT, "--%s: %s", option->name, why.text);
@@ -116,6 +117,7 @@ static ld_status read_value(command_line *line, int argc, char **argv, const com
     case OPTION_MILLIMETRES:
     case OPTION_MILLISECONDS:
     case OPTION_HERTZ:
+    case OPTION_NUMBER:
         return take_number(option, error);
     case OPTION_WORD:
         return take_word(option, argc, argv, error);

@@ -18,7 +18,8 @@ typedef enum option_kind {
     OPTION_MILLIMETRES,
     OPTION_MILLISECONDS,
     OPTION_HERTZ,
-    OPTION_WORD // one of the words of `argument`, "one|other", or without it ""
+    OPTION_NUMBER, // "1"
+    OPTION_WORD    // one of the words of `argument`, "one|other", or without it ""
 } option_kind;
 
 // A row of the table; one without a name ends it.

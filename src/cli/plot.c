@@ -32,12 +32,15 @@ static size_t split(char *list, const char *names[MOST])
 typedef struct wishes {
     char *what, *file, *style;
     double from, to, width;
+    ld_scene scene; // 0: not given
 } wishes;
 
 static int draw(const command_line *line, const wishes *asked)
 {
     const char *names[MOST];
     char note[LD_ERROR_TEXT];
+    ld_scene scene = {asked->scene.magnify != 0 ? asked->scene.magnify : 1,
+                      asked->scene.slower != 0 ? asked->scene.slower : 1};
     ld_picture picture = {.folder = line->word,
                           .folder_count = line->count,
                           .figure = names,
@@ -46,7 +49,9 @@ static int draw(const command_line *line, const wishes *asked)
                           .to = asked->to * 1e-3,
                           .style = asked->style,
                           .width = asked->width * 1e-3,
-                          .note = note};
+                          .note = note,
+                          .scene = asked->scene.magnify != 0 || asked->scene.slower != 0 ? &scene
+                                                                                         : NULL};
     ld_error error;
     ld_status status = ld_plot(&picture, asked->file, &error);
     if (!status)
@@ -63,7 +68,9 @@ int command_plot(const command *self, int argc, char **argv)
         {"what", 'w', OPTION_TEXT, &asked.what,
          "Figures to draw (tip,contact,relative; for a flight without launcher trajectory,flight)",
          "NAME,..."},
-        {"output", 'o', OPTION_TEXT, &asked.file, "Picture: FILE.svg, FILE.pdf or FILE.png",
+        {"output", 'o', OPTION_TEXT, &asked.file,
+         "Picture: FILE.svg, FILE.pdf or FILE.png; FILE.glb: the moving launcher in three "
+         "dimensions",
          "FILE"},
         {"from", '\0', OPTION_MILLISECONDS, &asked.from, "First time to draw, after ignition [ms]",
          "MS"},
@@ -73,12 +80,16 @@ int command_plot(const command *self, int argc, char **argv)
          "Style: screen (default), dark, or paper (84 mm wide)", "NAME"},
         {"width", '\0', OPTION_MILLIMETRES, &asked.width,
          "Width of the picture [mm]; the font size stays", "MM"},
+        {"magnify", '\0', OPTION_NUMBER, &asked.scene.magnify,
+         "Of a .glb: deflections of tubes and beams so many times (1)", "N"},
+        {"slower", '\0', OPTION_NUMBER, &asked.scene.slower,
+         "Of a .glb: played so many times slower than the launch (1)", "N"},
         COMMAND_USUAL};
     command_line line;
     int code = 0;
     if (command_line_read(&line, self, argc, argv, options, &code)) {
         if (!asked.file) {
-            command_complain("plot requires -o FILE.svg, FILE.pdf or FILE.png");
+            command_complain("plot requires -o FILE.svg, FILE.pdf, FILE.png or FILE.glb");
             code = EXIT_INPUT;
         } else {
             code = draw(&line, &asked);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/part_file.h"
+#include "figures/scene.h"
 #include "results/manifest.h"
 
 enum { MOST_FIGURES = 32 };
@@ -321,13 +322,59 @@ static ld_status check_picture(const ld_picture *picture, ld_error *error)
     return LD_OK;
 }
 
+// ---- scenes ----
+
+static bool is_scene(const char *file)
+{
+    const char *ending = strrchr(file, '.');
+    return ending && strcasecmp(ending, ".glb") == 0;
+}
+
+static ld_status check_scene(const ld_picture *picture, ld_error *error)
+{
+    if (picture->folder_count != 1)
+        return ld_fail(error, LD_ERR_INPUT, "a scene shows one run, found %zu folders",
+                       picture->folder_count);
+    if (picture->figure_count > 0 || picture->style || picture->width != 0)
+        return ld_fail(error, LD_ERR_INPUT, "figures, style and width are not for a scene (.glb)");
+    for (int i = 0; i < 2 && picture->scene; i++) {
+        double times = i ? picture->scene->slower : picture->scene->magnify;
+        if (!(times > 0 && times <= 1e5))
+            return ld_fail(error, LD_ERR_INPUT, "found %s %g, expected more than 0, at most 100000",
+                           i ? "slower" : "magnify", times);
+    }
+    return LD_OK;
+}
+
+static ld_status write_scene(const ld_picture *picture, const history_data *run, const char *file,
+                             ld_error *error)
+{
+    part_file part;
+    ld_status status = part_file_begin(&part, file, error);
+    if (status)
+        return status;
+    FILE *to = fopen(part.path, "wb");
+    if (!to)
+        return part_file_end(&part, part_file_failed(&part, errno, error), error);
+    status = scene_write(run, picture, to, error);
+    bool failed = ferror(to) != 0;
+    if ((fclose(to) != 0 || failed) && !status)
+        status = part_file_failed(&part, errno, error);
+    return part_file_end(&part, status, error);
+}
+
+// ---- all ----
+
 ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
 {
     assert(picture && file);
     plot_format format = PLOT_SVG;
+    bool scene = is_scene(file);
     ld_status status = check_picture(picture, error);
     if (!status)
-        status = plot_format_of(file, &format, error);
+        status = scene ? check_scene(picture, error) : plot_format_of(file, &format, error);
+    if (!status && !scene && picture->scene)
+        status = ld_fail(error, LD_ERR_INPUT, "magnify and slower are for a scene (.glb)");
     history_data run[PLOT_RUNS];
     size_t read = 0;
     if (picture->note)
@@ -337,7 +384,8 @@ ld_status ld_plot(const ld_picture *picture, const char *file, ld_error *error)
         read += !status;
     }
     if (!status)
-        status = draw_runs(picture, run, format, file, error);
+        status = scene ? write_scene(picture, run, file, error)
+                       : draw_runs(picture, run, format, file, error);
     while (read > 0)
         history_free(&run[--read]);
     return status;

@@ -39,6 +39,7 @@ SIZE(ld_derivative_key, 16);
 SIZE(ld_derivative_options, 64);
 SIZE(ld_optimise_options, 72);
 SIZE(ld_picture, 80);
+SIZE(ld_scene, 16);
 SIZE(ld_response_wish, 96);
 SIZE(ld_watch, 16);
 SIZE(ld_run_options, 64);
