@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "fmu/fmi2_interface.h"
+#include "fmu/fmu_derivatives.h"
 #include "fmu/fmu_exchange.h"
 
 enum { PATH_SIZE = 4096 };
@@ -367,15 +368,6 @@ fmi2Status fmi2GetRealOutputDerivatives(void *c, const unsigned *reference, size
     return not_offered(c, "fmi2GetRealOutputDerivatives");
 }
 
-// NOLINTNEXTLINE(readability-function-size): of the standard
-fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t unknowns,
-                                        const unsigned *known, size_t knowns, const double *seed,
-                                        double *sensitivity)
-{
-    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)sensitivity;
-    return not_offered(c, "fmi2GetDirectionalDerivative");
-}
-
 // ---- states ----
 
 fmi2Status fmi2FreeFMUstate(void *c, void **state)
@@ -439,8 +431,6 @@ fmi2Status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void
     return answer_status(self, status, &error);
 }
 
-// ---- model exchange ----
-
 // Of what is asked for at a point that is tried: where the equations have no solution, a shorter
 // step may find one.
 static fmi2Status answer_trial(const component *self, ld_status status, const ld_error *error)
@@ -450,6 +440,34 @@ static fmi2Status answer_trial(const component *self, ld_status status, const ld
     log_line(self, fmi2Discard, "logStatusDiscard", error->text);
     return fmi2Discard;
 }
+
+// ---- derivatives ----
+
+// `bent`: found, but less well than elsewhere.
+static fmi2Status answer_derivative(const component *self, ld_status status, bool bent,
+                                    const ld_error *error)
+{
+    if (status || !bent)
+        return answer_trial(self, status, error);
+    log_line(self, fmi2Warning, "logStatusWarning", error->text);
+    return fmi2Warning;
+}
+
+// NOLINTNEXTLINE(readability-function-size): of the standard
+fmi2Status fmi2GetDirectionalDerivative(void *c, const unsigned *unknown, size_t unknowns,
+                                        const unsigned *known, size_t knowns, const double *seed,
+                                        double *sensitivity)
+{
+    component *self = c;
+    NEEDS_ALIVE((unknowns == 0 || (unknown && sensitivity)) && (knowns == 0 || (known && seed)));
+    const fmu_jacobian of = {unknown, unknowns, known, knowns};
+    bool bent;
+    ld_error error;
+    ld_status status = fmu_derivative_along(self->inside, &of, seed, sensitivity, &bent, &error);
+    return answer_derivative(self, status, bent, &error);
+}
+
+// ---- model exchange ----
 
 fmi2Status fmi2EnterEventMode(void *c)
 {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "fmu/fmi3_interface.h"
+#include "fmu/fmu_derivatives.h"
 #include "fmu/fmu_exchange.h"
 
 // An instance and its importer.
@@ -435,26 +436,6 @@ fmi3Status fmi3GetOutputDerivatives(void *instance, const uint32_t *reference, s
     return not_offered(instance, "fmi3GetOutputDerivatives");
 }
 
-// NOLINTNEXTLINE(readability-function-size): of the standard
-fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
-                                        const uint32_t *known, size_t knowns, const double *seed,
-                                        size_t seeds, double *value, size_t values)
-{
-    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)seeds;
-    (void)value, (void)values;
-    return not_offered(instance, "fmi3GetDirectionalDerivative");
-}
-
-// NOLINTNEXTLINE(readability-function-size): of the standard
-fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
-                                    const uint32_t *known, size_t knowns, const double *seed,
-                                    size_t seeds, double *value, size_t values)
-{
-    (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)seeds;
-    (void)value, (void)values;
-    return not_offered(instance, "fmi3GetAdjointDerivative");
-}
-
 // ---- states ----
 
 fmi3Status fmi3FreeFMUState(void *instance, void **state)
@@ -589,8 +570,6 @@ fmi3Status fmi3ActivateModelPartition(void *instance, uint32_t clock, double t)
     return not_offered(instance, "fmi3ActivateModelPartition");
 }
 
-// ---- model exchange ----
-
 // Of what is asked for at a point that is tried: where the equations have no solution, a shorter
 // step may find one.
 static fmi3Status answer_trial(const component *self, ld_status status, const ld_error *error)
@@ -601,6 +580,55 @@ static fmi3Status answer_trial(const component *self, ld_status status, const ld
         self->log(self->environment, fmi3Discard, "logStatusDiscard", error->text);
     return fmi3Discard;
 }
+
+// ---- derivatives ----
+
+// `bent`: found, but less well than elsewhere.
+static fmi3Status answer_derivative(const component *self, ld_status status, bool bent,
+                                    const ld_error *error)
+{
+    if (status || !bent)
+        return answer_trial(self, status, error);
+    if (self->log)
+        self->log(self->environment, fmi3Warning, "logStatusWarning", error->text);
+    return fmi3Warning;
+}
+
+// NOLINTNEXTLINE(readability-function-size): of the standard
+fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
+                                        const uint32_t *known, size_t knowns, const double *seed,
+                                        size_t seeds, double *value, size_t values)
+{
+    component *self = instance;
+    NEEDS_ALIVE((unknowns == 0 || (unknown && value)) && (knowns == 0 || (known && seed)));
+    if (seeds != knowns || values != unknowns)
+        return refuse_call(self, __func__,
+                           "expected a seed for each known, a value for each unknown");
+    const fmu_jacobian of = {unknown, unknowns, known, knowns};
+    bool bent;
+    ld_error error;
+    ld_status status = fmu_derivative_along(self->inside, &of, seed, value, &bent, &error);
+    return answer_derivative(self, status, bent, &error);
+}
+
+// NOLINTNEXTLINE(readability-function-size): of the standard
+fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
+                                    const uint32_t *known, size_t knowns, const double *seed,
+                                    size_t seeds, double *value, size_t values)
+{
+    component *self = instance;
+    NEEDS_ALIVE((unknowns == 0 || (unknown && seed)) && (knowns == 0 || (known && value)));
+    if (seeds != unknowns || values != knowns)
+        return refuse_call(self, __func__,
+                           "expected a seed for each unknown, a value for each known");
+    const fmu_jacobian of = {unknown, unknowns, known, knowns};
+    bool bent;
+    ld_error error;
+    ld_status status = fmu_derivative_adjoint(self->inside, &of, seed, value, &bent, &error);
+    return answer_derivative(self, status, bent, &error);
+}
+
+// ---- model exchange ----
 
 fmi3Status fmi3EnterContinuousTimeMode(void *instance)
 {

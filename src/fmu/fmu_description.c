@@ -351,9 +351,18 @@ static void write_root(FILE *stream, const fmu_description *self)
     fputs(">\n", stream);
 }
 
+static void write_derivatives(FILE *stream, const fmu_description *self)
+{
+    fputs(self->version == 2 ? "      providesDirectionalDerivative=\"true\"\n"
+                             : "      providesDirectionalDerivatives=\"true\" "
+                               "providesAdjointDerivatives=\"true\"\n",
+          stream);
+}
+
 static void write_model_exchange(FILE *stream, const fmu_description *self)
 {
     fprintf(stream, "  <ModelExchange modelIdentifier=\"%s\"\n", self->identifier);
+    write_derivatives(stream, self);
     fputs(self->version == 2
               ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
               : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "
@@ -367,6 +376,8 @@ static void write_co_simulation(FILE *stream, const fmu_description *self)
             "  <CoSimulation modelIdentifier=\"%s\" "
             "canHandleVariableCommunicationStepSize=\"true\"\n",
             self->identifier);
+    if (self->variables->runner->input_count > 0)
+        write_derivatives(stream, self);
     fputs(self->version == 2
               ? "      canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
               : "      canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" "

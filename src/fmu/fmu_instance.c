@@ -29,7 +29,7 @@ void fmu_forget_outputs(fmu_instance *self)
     self->known.row = self->known.result = self->known.outputs = false;
 }
 
-static void end_run(fmu_instance *self)
+void fmu_end_run(fmu_instance *self)
 {
     if (self->run)
         self->variables.runner->end(self->run);
@@ -39,7 +39,7 @@ static void end_run(fmu_instance *self)
 
 static void release_model(fmu_instance *self)
 {
-    end_run(self);
+    fmu_end_run(self);
     ld_simulation_free(self->simulation);
     ld_model_free(self->model);
     self->simulation = NULL;
@@ -275,7 +275,7 @@ ld_status fmu_begin(fmu_instance *self, ld_error *error)
                          "ignition_by_input requires a rocket that is not ignited at the start: "
                          "set scenario.run.lead_in, or a later firing");
     if (status)
-        end_run(self);
+        fmu_end_run(self);
     return status;
 }
 
@@ -397,7 +397,7 @@ ld_status fmu_instance_reset(fmu_instance *self, ld_error *error)
     self->start = NAN;
     self->going = self->inputs_set = self->lit = false;
     self->exchange.continuous = self->exchange.moved = false;
-    end_run(self);
+    fmu_end_run(self);
     return build(self, error);
 }
 
@@ -410,7 +410,7 @@ ld_status fmu_set_experiment(fmu_instance *self, double start, double tolerance,
         ld_model_number(self->model, "run.tolerance", &usual, NULL);
     if (!isfinite(start))
         return ld_fail(error, LD_ERR_INPUT, "the start time is not a number");
-    end_run(self);
+    fmu_end_run(self);
     self->start = start;
     self->tolerance = tolerance > 0 && tolerance != usual ? tolerance : 0;
     return LD_OK;
@@ -562,7 +562,7 @@ static ld_status take_change(fmu_instance *self, const fmu_variable *variable, l
     if (fmu_is_parameter(variable) && self->going)
         return ld_fail(error, LD_ERR_INPUT, "%s is fixed once the run has begun", variable->name);
     if (!self->going)
-        end_run(self);
+        fmu_end_run(self);
     self->inputs_set |= variable->group == FMU_PART_INPUT;
     self->exchange.moved |= variable->group == FMU_PART_INPUT;
     self->changed[place_of(self, variable)] = true;
@@ -815,7 +815,7 @@ ld_status fmu_load(fmu_instance *self, const fmu_state *state, ld_error *error)
         *twin = before;
     }
     if (twin->simulation == self->simulation) { // which stays
-        end_run(twin);
+        fmu_end_run(twin);
         twin->model = NULL;
         twin->simulation = NULL;
     }

@@ -52,6 +52,9 @@ typedef struct fmu_instance fmu_instance;
 // The present is another one: no output is known.
 void fmu_forget_outputs(fmu_instance *self);
 
+// The run is that of other inputs or parameters: fmu_begin() begins another one.
+void fmu_end_run(fmu_instance *self);
+
 // Ignites the rocket where the input has become true since the last step; then `*lit` becomes true.
 ld_status fmu_ignite(fmu_instance *self, bool *lit, ld_error *error);
 
