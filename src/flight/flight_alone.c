@@ -53,6 +53,7 @@ static free_flight flight_of(const ld_simulation *self, double state[FLIGHT_STAT
         .t_end = run->end == LD_END_TIME ? ignition + run->end_time : INFINITY,
         .launch_x = pose.r_O1.x,
         .launch_z = pose.r_O1.z,
+        .container = v3_from(self->flight.rocket->line.container),
     };
 }
 

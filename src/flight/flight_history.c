@@ -3,7 +3,9 @@
 
 #include <math.h>
 
+#include "model/blocks/rocket.h"
 #include "state/exit_figures.h"
+#include "systems/flight/line.h"
 
 typedef struct flight_instant {
     double t;
@@ -13,8 +15,12 @@ typedef struct flight_instant {
     double mass, thrust;
     flight_flow flow;
     double acceleration, margin, drag_area;
-    v3 w_dot, force;    // against inertial axes, in B; force: specific, at O1
-    flight_place place; // on a round or WGS 84 Earth
+    v3 w_dot, force;          // against inertial axes, in B; force: specific, at O1
+    flight_place place;       // on a round or WGS 84 Earth
+    double tension, paid_out; // of the line
+    struct {
+        double x, y, z;
+    } line[LD_LINE_PLACES];
 } flight_instant;
 
 #define AT(member) .at = QUANTITY_AT(flight_instant, member)
@@ -77,21 +83,40 @@ static const quantity on_earth[] = {
     {"local_pitch", "rad", "of the rocket's axis above the local horizon", AT(place.pitch)},
     {"local_roll", "rad", "of the rocket, Ry(-heading) Rz(pitch) Rx(roll) against north, up, east", AT(place.roll)},
 };
+static const quantity pulled[] = {
+    {"line.tension", "N", "pull of the line on the rocket", AT(tension)},
+    {"line.paid_out", "m", "unstretched length that has left the container", AT(paid_out)},
+};
+#define PLACE(member) .at = QUANTITY_OF_EACH(flight_instant, line, member)
+static const quantity line_places[] = {
+    {"line.%s.x", "m", "line at equal parts of its length from the container to the rocket, in I", PLACE(x)},
+    {"line.%s.y", "m", "line at equal parts of its length from the container to the rocket, in I", PLACE(y)},
+    {"line.%s.z", "m", "line at equal parts of its length from the container to the rocket, in I", PLACE(z)},
+};
 
 static const quantity_group groups[] = {
     {.title = "flight", QUANTITY_ROWS(flight)},
     {.title = "on a round or WGS 84 Earth", .each = EACH_EARTH, QUANTITY_ROWS(on_earth)},
+    {.title = "line that the rocket pulls", .each = EACH_LINE, QUANTITY_ROWS(pulled)},
+    {.title = "places of the line", .each = EACH_LINE_PLACE, QUANTITY_ROWS(line_places)},
 };
 // clang-format on
 
-_Static_assert((sizeof flight + sizeof on_earth) / sizeof *flight <= FLIGHT_MAX_COLUMNS,
+_Static_assert((sizeof flight + sizeof on_earth + sizeof pulled +
+                LD_LINE_PLACES * sizeof line_places) /
+                       sizeof *flight <=
+                   FLIGHT_MAX_COLUMNS,
                "the rows of flights exceed their buffer");
 
 const quantity_table flight_quantities = {groups, sizeof groups / sizeof *groups};
 
 ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error)
 {
-    const quantity_things things = {.count = {[EACH_RUN] = 1, [EACH_EARTH] = !system->earth.flat}};
+    bool pulls = system->rocket->line.present;
+    const quantity_things things = {.count = {[EACH_RUN] = 1,
+                                              [EACH_EARTH] = !system->earth.flat,
+                                              [EACH_LINE] = pulls,
+                                              [EACH_LINE_PLACE] = pulls ? LD_LINE_PLACES : 0}};
     return quantity_columns_make(columns, &(quantity_part){&flight_quantities, 0}, 1, &things,
                                  error);
 }
@@ -119,6 +144,22 @@ static void find_inertial(const flight_system *system, const flight_phase *phase
     now->force = v3_sub(m3_apply_transposed(A_CB, felt), arm);
 }
 
+static void find_line(const flight_system *system, const flight_phase *phase, flight_instant *now)
+{
+    const flight_line *line = phase->line;
+    m3 A_IB = q_matrix(now->pose.q_IB);
+    v3 arm = m3_apply(A_IB, v3_from(system->rocket->line.bridle));
+    now->tension = v3_norm(line_force(line, now->t));
+    now->paid_out = line_paid(line, now->t);
+    for (int i = 0; i < LD_LINE_PLACES; i++) {
+        double share = (i + 1.0) / LD_LINE_PLACES;
+        v3 r = line_place(line, now->t, v3_add(now->pose.r_O1, arm), share);
+        now->line[i].x = r.x;
+        now->line[i].y = r.y;
+        now->line[i].z = r.z;
+    }
+}
+
 void flight_row(const flight_system *system, const quantity_columns *columns,
                 const flight_phase *phase, double t, const double *state,
                 double row[FLIGHT_MAX_COLUMNS])
@@ -144,5 +185,7 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     now.angles = direction_angles_of(axis, v3_cross(w, axis));
     if (!system->earth.flat)
         now.place = flight_place_at(system, t, state, A_IB);
+    if (phase->line)
+        find_line(system, phase, &now);
     quantity_row(columns, &now, row);
 }

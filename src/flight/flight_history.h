@@ -5,7 +5,7 @@
 #include "quantities/quantity_table.h"
 #include "systems/flight/flight.h"
 
-enum { FLIGHT_MAX_COLUMNS = 64 };
+enum { FLIGHT_MAX_COLUMNS = 128 };
 
 extern const quantity_table flight_quantities;
 

@@ -619,6 +619,113 @@ static void note_closed(flight_run *run)
                          run->job->system->rocket->parachute[i].name);
 }
 
+// ---- the line ----
+
+static moving_air air_of_line(const void *self, double t, v3 r)
+{
+    return flight_steady_air_at(self, t, r);
+}
+
+// Its bridle now, as the rates of the last step's end have it.
+static line_bridle bridle_now(const flight_run *run)
+{
+    const dormand_prince_numbers *step = &run->steps.step;
+    return flight_point(run->job->system, &run->phase, step->t, step->y,
+                        step->k[DORMAND_PRINCE_STAGES - 1],
+                        v3_from(run->job->system->rocket->line.bridle));
+}
+
+static ld_status begin_line(flight_run *run)
+{
+    const free_flight *job = run->job;
+    const ld_line *given = &job->system->rocket->line;
+    const line_setting setting = {
+        .given = given,
+        .container = job->container,
+        .gravity = earth_gravity(&job->system->earth, v3_zero()),
+        .ground = job->system->has_ground ? job->system->ground : -INFINITY,
+        .air = job->system->atmosphere.kind == LD_ATMOSPHERE_NONE ? NULL : air_of_line,
+        .self = job->system};
+    line_bridle bridle = bridle_now(run);
+    double distance = v3_norm(v3_sub(bridle.r, setting.container));
+    if (distance > given->length)
+        return ld_fail(run->error, LD_ERR_LAUNCH,
+                       "rocket.line.container: the flight begins %.6g m away from it, the line is "
+                       "%.6g m long",
+                       distance, given->length);
+    run->line = line_create(&setting, job->t_start, &bridle);
+    if (!run->line)
+        return ld_fail(run->error, LD_ERR_MEMORY, "no memory for a line");
+    run->phase.line = run->line;
+    return LD_OK;
+}
+
+// The line goes ahead of the rocket by up to a step, with the bridle as it is predicted; its force
+// then acts on the rocket over that time.
+static void step_line(flight_run *run)
+{
+    dormand_prince *steps = &run->steps;
+    if (steps->step.t < run->line->t)
+        return;
+    line_bridle bridle = bridle_now(run);
+    double to = fmin(steps->step.t_stop, steps->step.t + line_step(run->line));
+    line_advance(run->line, to, &bridle);
+    dormand_prince_start(steps, steps->step.t, steps->step.y);
+}
+
+// After a landing the line falls to the ground.
+static void lay_line(flight_run *run)
+{
+    const double longest = 600; // [s]
+    line_bridle bridle = bridle_now(run);
+    bridle.v = bridle.a = v3_zero();
+    double until = run->line->t + longest;
+    while (!line_lies(run->line) && run->line->t < until)
+        line_advance(run->line, run->line->t + line_step(run->line), &bridle);
+}
+
+static void record_line(flight_run *run)
+{
+    const flight_line *line = run->line;
+    const ld_line *given = line->setting.given;
+    double ignition = run->job->t_ignition;
+    v3 bridle = bridle_now(run).r;
+    ld_line_summary *out = &run->rocket->line;
+    *out = (ld_line_summary){.greatest_tension = line->greatest,
+                             .t_greatest_tension = line->t_greatest - ignition,
+                             .paid_out = line->paid,
+                             .remaining = fmax(0, given->length - line->paid),
+                             .t_end = line->t_ended - ignition,
+                             .t_break = line->t_broke - ignition,
+                             .broken_at = line->broke_at,
+                             .reach = line_reach(line, bridle),
+                             .t_rest = run->landed && line_lies(line) ? line->t - ignition : NAN};
+    v3_store(out->broken, line->broke);
+    for (int i = 0; i < LD_LINE_PLACES; i++) {
+        v3 r = line_place(line, line->t, bridle, (i + 1.0) / LD_LINE_PLACES);
+        out->place[i].x = r.x;
+        out->place[i].y = r.y;
+        out->place[i].z = r.z;
+    }
+    if (line->cut >= 0)
+        summary_note(run->summary,
+                     "the line broke at t = %.4f s, %.4g m from the rocket, at x = %.1f m, y = "
+                     "%.1f m, z = %.1f m",
+                     line->t_broke, line->broke_at, line->broke.x, line->broke.y, line->broke.z);
+}
+
+static void end_line(flight_run *run, ld_status status)
+{
+    if (!run->line)
+        return;
+    if (!status && run->landed)
+        lay_line(run);
+    record_line(run);
+    line_free(run->line);
+    run->line = NULL;
+    run->phase.line = NULL;
+}
+
 // ---- the loop ----
 
 // The next row of the brakes' schedule, from ignition, that lies after t by the run's clock.
@@ -785,7 +892,11 @@ ld_status flight_run_examine(flight_run *run, bool seen)
 ld_status flight_run_step(flight_run *run)
 {
     dormand_prince_numbers *step = &run->steps.step;
-    dormand_prince_step(&run->steps, step->t_stop);
+    double stop = step->t_stop;
+    if (run->line)
+        step_line(run);
+    dormand_prince_step(&run->steps, run->line ? fmin(stop, run->line->t) : stop);
+    step->t_stop = stop;
     const flight_step ends = ends_of(run);
     bool seen = flight_watch(run->job->system, &run->phase, &ends);
     bool due = step->steps >= run->next_check || step->t == step->t_stop ||
@@ -801,6 +912,11 @@ static ld_status begin(flight_run *run, const double *y)
     set_tolerances(run);
     pass_parachutes(run, job->t_start, start);
     dormand_prince_start(&run->steps, job->t_start, start);
+    if (job->system->rocket->line.present) {
+        ld_status made = begin_line(run);
+        if (made)
+            return made;
+    }
     double height = flight_height(job->system, y);
     run->t_limit = job->t_start + model_run(job->model)->flight_limit;
     watch_extremes(run, job->t_start, y);
@@ -928,6 +1044,7 @@ void flight_run_end(flight_run *run, ld_status status, double *state)
     record_final(run, run->steps.step.t, state, &run->rocket->final);
     measuring_express(run->job->measure, run->rocket);
     note_warnings(run);
+    end_line(run, status);
     run->summary->t_end = run->steps.step.t;
     run->summary->statistics.steps += (int64_t)run->steps.step.steps;
     run->summary->statistics.rhs_evaluations += (int64_t)run->steps.step.evaluations;

@@ -7,6 +7,7 @@
 #include "quantities/quantity_table.h"
 #include "quantities/summary.h"
 #include "systems/flight/flight.h"
+#include "systems/flight/line.h"
 
 // What is to be flown; the caller keeps what it points to.
 typedef struct free_flight {
@@ -18,6 +19,7 @@ typedef struct free_flight {
     double t_end;    // infinity: to the ground
     double launch_x; // [m] launch point in I
     double launch_z;
+    v3 container;                  // [m] of the rocket's line, in I
     const ld_run_options *options; // its progress is called; may be NULL
     // Called for each row of the history (at the output steps, the start, key instants and the
     // end); may be NULL.
@@ -42,6 +44,7 @@ typedef struct flight_run {
     const free_flight *job;
     flight_phase phase;
     dormand_prince steps;
+    flight_line *line; // that the rocket pulls; NULL: none
     ld_rocket_summary *rocket;
     ld_summary *summary;
     ld_error *error;

@@ -96,6 +96,8 @@ static void archive_summary(archive *bytes, ld_run *run)
         quantity_archive(&rocket_quantities, &things, rocket, bytes);
         archive_doubles(bytes, run->point[i], 2);
     }
+    if (run->launch.rocket->line.present)
+        archive_doubles(bytes, run->container, 3);
     archive_int(bytes, &summary->equilibrium.wheel_count, 0, LD_MAX_WHEELS);
     quantity_archive(&run_quantities, &things, summary, bytes);
     const int most_notes = sizeof summary->note / sizeof *summary->note;

@@ -101,6 +101,7 @@ static ld_status fly(ld_run *run, int i)
         .t_end = run->t_end,
         .launch_x = run->point[i][0],
         .launch_z = run->point[i][1],
+        .container = v3_from(run->container),
         .options = &run->options,
         .row = rows ? write_flight_row : NULL,
         .self = run,

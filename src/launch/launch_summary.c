@@ -14,6 +14,16 @@
 #include "systems/launching/launching_figures.h"
 #include "systems/launching/launching_kinematics.h"
 
+// The container of a line stays where it is at the exit.
+static void record_container(ld_run *run, const base_frame *base)
+{
+    const ld_line *line = &run->launch.rocket->line;
+    v3 at = v3_from(line->container);
+    if (line->stand == LD_LINE_ON_LAUNCHER)
+        at = v3_add(base->r, m3_apply(base->A, at));
+    v3_store(run->container, at);
+}
+
 void launch_record_exit(ld_run *run, double t, const double *landed)
 {
     launch_state *self = &run->launch;
@@ -53,6 +63,7 @@ void launch_record_exit(ld_run *run, double t, const double *landed)
     quat q = q_from_matrix(m3_mul(A_IR, pose.A_RB));
     memcpy(rocket->exit.quaternion, &q, sizeof q);
     v3_store(rocket->exit.rate, m3_apply_transposed(pose.A_RB, pose.w_B));
+    record_container(run, &input.launching.base);
     tip_state tip = tip_state_of(self, &input.launching.base, y);
     rocket->tip.y = tip.offset.y;
     rocket->tip.z = tip.offset.z;

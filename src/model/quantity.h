@@ -11,8 +11,8 @@
 
 // What there is one of each: a run; a vehicle, where the base is one; a slot; air on the emerged
 // part of the rocket or on all of it in an open guide, jets on the platform, a pressure behind the
-// rocket, what all recoil slides do, where they are asked for; a round or WGS 84 Earth; then
-// several.
+// rocket, what all recoil slides do, where they are asked for; a round or WGS 84 Earth; a line
+// that the rocket pulls; then several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
@@ -23,6 +23,7 @@ typedef enum quantity_each {
     EACH_PRESSURE,
     EACH_SLIDE_WORK,
     EACH_EARTH,
+    EACH_LINE,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,
     EACH_SHOE,  // an adaptor on a guide's surfaces
@@ -31,8 +32,9 @@ typedef enum quantity_each {
     EACH_MEASURE, // that the scenario asks for
     EACH_SLIDE,   // support on which the tube recoils, by its number among them
     EACH_PARACHUTE,
-    EACH_STATION, // of the tube, at which loads are asked for
-    EACH_SUPPORT, // of the tube, where loads are asked for
+    EACH_LINE_PLACE, // at equal parts of the length that is out, the last at the rocket
+    EACH_STATION,    // of the tube, at which loads are asked for
+    EACH_SUPPORT,    // of the tube, where loads are asked for
     // of a base of kind multibody: there is one, it has wheels; its parts
     EACH_MULTIBODY,
     EACH_ROLLING,

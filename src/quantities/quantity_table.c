@@ -64,7 +64,9 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_BUSHING] = multibody ? parts->bushing_count : 0,
                   [EACH_ROLLER] = multibody ? vehicle->wheel_count : 0,
                   [EACH_MEASURE] = model_measure_count(model),
+                  [EACH_LINE] = rocket->line.present,
                   [EACH_PARACHUTE] = rocket->parachute_count,
+                  [EACH_LINE_PLACE] = rocket->line.present ? LD_LINE_PLACES : 0,
                   [EACH_STATION] = tubes->station_count,
                   [EACH_SUPPORT] = tubes->station_count ? tubes->support_count : 0},
         .name = {[EACH_ADAPTOR] = rocket->adaptor[0].name,
@@ -288,7 +290,7 @@ static size_t count_columns(const quantity_table *table, const quantity_things *
         const quantity_group *group = &table->group[i];
         size_t columns = (size_t)(things->count[group->each] * group->rows);
         count += columns;
-        *several += group->each > EACH_EARTH ? columns : 0;
+        *several += group->each > EACH_LINE ? columns : 0;
     }
     return count;
 }

@@ -42,6 +42,25 @@ typedef struct ld_parachute_summary {
     double airspeed; ///< [m/s]
 } ld_parachute_summary;
 
+/// What became of a line that the rocket pulled.
+typedef struct ld_line_summary {
+    double greatest_tension;   ///< [N] of its pull on the rocket in flight
+    double t_greatest_tension; ///< [s] from ignition, as all times here
+    double paid_out;           ///< [m] unstretched length that has left the container
+    double remaining;          ///< [m] in the container
+    double t_end;              ///< [s] all of it was out; NaN: it is not
+    double t_break;            ///< [s] NaN: it has not broken
+    double broken[3];          ///< [m] where it broke, in I
+    double broken_at;          ///< [m] along it from the rocket
+    double reach;              ///< [m] greatest horizontal distance from the container of the part
+                               ///< that hangs on it, at the end
+    double t_rest;             ///< [s] it lies on the ground; NaN: it does not
+    /// [m] where it is at the end, in I, at equal parts of its length, the last at the rocket
+    struct {
+        double x, y, z;
+    } place[LD_LINE_PLACES];
+} ld_line_summary;
+
 /// State at the end of a free flight, of the rear adaptor's centre in I against the ground.
 typedef struct ld_final_state {
     double t;                    ///< [s] on the run's clock
@@ -161,6 +180,7 @@ typedef struct ld_rocket_summary {
     bool flown;                   ///< it has left the tube and flown: what follows is there
     ld_flight_summary flight;
     ld_parachute_summary parachute[LD_MAX_PARACHUTES]; ///< in the model's order
+    ld_line_summary line;                              ///< where the rocket pulls one
     ld_final_state final;
 } ld_rocket_summary;
 

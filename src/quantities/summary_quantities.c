@@ -194,6 +194,26 @@ static const quantity parachutes[] = {
     {"parachute.%s.height", "m", "parachute %s: height of the mass centre above the ground then", OPENED(height), KEPT, LINE("%s, height", "m", 1, 3)},
     {"parachute.%s.airspeed", "m/s", "parachute %s: speed through the air then", OPENED(airspeed), KEPT, LINE("%s, airspeed", "m/s", 1, 3)},
 };
+static const quantity line_pulled[] = {
+    {"line.greatest_tension", "N", "largest pull of the line on the rocket in flight", ROCKET(line.greatest_tension), KEPT, LINE("line, greatest tension", "N", 1, 2)},
+    {"line.t_greatest_tension", "s", "when that was", ROCKET(line.t_greatest_tension), KEPT},
+    {"line.paid_out", "m", "unstretched length that has left the container", ROCKET(line.paid_out), KEPT, LINE("line paid out, remaining", "m", 1, 2)},
+    {"line.remaining", "m", "length that is in the container still", ROCKET(line.remaining), KEPT, BESIDE(1)},
+    {"line.t_end", "s", "all of the line is out", ROCKET(line.t_end), KEPT},
+    {"line.t_break", "s", "the line breaks", ROCKET(line.t_break), KEPT},
+    {"line.broken.x", "m", "where it breaks, in I", ROCKET(line.broken[0]), "line.broken.position[]"},
+    {"line.broken.y", "m", "where it breaks, in I", ROCKET(line.broken[1]), "line.broken.position[]"},
+    {"line.broken.z", "m", "where it breaks, in I", ROCKET(line.broken[2]), "line.broken.position[]"},
+    {"line.broken.at", "m", "length from the rocket to there", ROCKET(line.broken_at), KEPT},
+    {"line.reach", "m", "at the end, greatest horizontal distance from the container of the part that hangs on it", ROCKET(line.reach), KEPT, LINE("reach of the line", "m", 1, 2)},
+    {"line.t_rest", "s", "the line lies on the ground", ROCKET(line.t_rest), KEPT},
+};
+#define LYING(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, line.place, member)
+static const quantity line_places[] = {
+    {"line.%s.x", "m", "line at the end, at equal parts of its length from the container to the rocket, in I", LYING(x), KEPT},
+    {"line.%s.y", "m", "line at the end, at equal parts of its length from the container to the rocket, in I", LYING(y), KEPT},
+    {"line.%s.z", "m", "line at the end, at equal parts of its length from the container to the rocket, in I", LYING(z), KEPT},
+};
 static const quantity final[] = {
     {"final.t", "s", "end of the flight, on the run's clock", ROCKET(final.t)},
     {"final.x", "m", "rear adaptor's centre in I", ROCKET(final.position[0]), "final.position[]"},
@@ -257,6 +277,8 @@ static const quantity_group rocket_groups[] = {
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
     {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
+    {.title = "line that the rocket pulls", .each = EACH_LINE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(line_pulled)},
+    {.title = "places of the line", .each = EACH_LINE_PLACE, .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(line_places)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
     {.title = "the same on a round or WGS 84 Earth", .where = QUANTITY_AT(ld_rocket_summary, final.earth), QUANTITY_ROWS(final_on_earth)},
 };
@@ -399,6 +421,8 @@ void rocket_clear(ld_rocket_summary *rocket, bool launched)
                                          [EACH_SLIDE] = LD_MAX_SUPPORTS,
                                          [EACH_HINGE] = HINGES,
                                          [EACH_PARACHUTE] = LD_MAX_PARACHUTES,
+                                         [EACH_LINE] = 1,
+                                         [EACH_LINE_PLACE] = LD_LINE_PLACES,
                                          [EACH_DRIVE] = LD_MAX_DRIVES,
                                          [EACH_FOOT] = LD_MAX_FEET};
     memset(rocket, 0, sizeof *rocket);

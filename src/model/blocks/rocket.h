@@ -5,6 +5,7 @@
 #include "model/blocks/aerodynamics.h"
 #include "model/blocks/contact.h"
 #include "model/blocks/drag_devices.h"
+#include "model/blocks/line.h"
 #include "model/blocks/motor.h"
 
 /// Mass data of the rocket at one instant.
@@ -45,6 +46,7 @@ typedef struct ld_rocket {
     ld_air_brakes air_brakes;
     int parachute_count;
     ld_parachute parachute[LD_MAX_PARACHUTES];
+    ld_line line;
 } ld_rocket;
 
 #endif

@@ -1254,6 +1254,42 @@ static const field_block air_brakes_block = {.fields = air_brakes_fields,
                                              .form_offset = offsetof(ld_air_brakes, form),
                                              .form_from_keys = true};
 
+static const field_word line_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word line_ends[] = {{"held", LD_LINE_HELD}, {"free", LD_LINE_FREE}, {NULL, 0}};
+static const field_word line_stands[] = {
+    {"ground", LD_LINE_ON_GROUND}, {"launcher", LD_LINE_ON_LAUNCHER}, {NULL, 0}};
+static const field_row line_fields[] = {
+    {"length", NUMBER(ld_line, length, "m"), ABOVE_TO(0, 1e5), REQUIRED,
+     .doc = "of the whole line, unstretched"},
+    {"mass_per_length", NUMBER(ld_line, mass_per_length, "kg/m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "dry, or wet as it is paid out"},
+    {"diameter", NUMBER(ld_line, diameter, "m"), ABOVE_TO(0, 1), REQUIRED, .doc = "for the drag"},
+    {"stiffness", NUMBER(ld_line, stiffness, "N"), ABOVE_TO(0, 1e9), REQUIRED,
+     .doc = "EA: tension over strain"},
+    {"damping", NUMBER(ld_line, damping, ""), FROM_TO(0, 1), DEFAULT(0.1),
+     .doc = "of the motion of neighbouring points against each other, of the critical one"},
+    {"breaking_force", NUMBER(ld_line, breaking_force, "N"), POSITIVE, NO_DEFAULT("unbreakable"),
+     .doc = "tension at which it breaks"},
+    {"drag_across", NUMBER(ld_line, drag_across, ""), FROM_TO(0, 10), DEFAULT(1.2),
+     .doc = "coefficient of the speed across, on diameter times length"},
+    {"drag_along", NUMBER(ld_line, drag_along, ""), FROM_TO(0, 1), DEFAULT(0.01),
+     .doc = "coefficient of the speed along, on the surface"},
+    {"bridle", VECTOR(ld_line, bridle, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "point of the rocket that pulls it, in B"},
+    {"stand", CHOICE(ld_line, stand, line_stands), DEFAULT(LD_LINE_ON_GROUND),
+     .doc = "what the container stands on: the ground (`container` in I), or the launcher (in T, "
+            "with which it moves until the exit)"},
+    {"container", VECTOR(ld_line, container, "m", 3), FROM_TO(-1e4, 1e4), DEFAULT(0),
+     .doc = "point where the line leaves its container"},
+    {"tension", NUMBER(ld_line, tension, "N"), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "with which the container holds the line that leaves it"},
+    {"end", CHOICE(ld_line, end, line_ends), DEFAULT(LD_LINE_HELD),
+     .doc = "of the line in the container: held there, or free to leave it"},
+    {"segments", INTEGER(ld_line, segments, 2, LD_LINE_MOST_SEGMENTS), DEFAULT(40),
+     .doc = "of the whole length"},
+    {0}};
+static const field_block line_block = {.fields = line_fields};
+
 // What carries the rocket: the form of the whole scenario and of the rocket.
 #define KIND_WORD(name, word, number) {"base.kind: " #word, name},
 static const field_word kind_words[] = {LD_BASE_KINDS(KIND_WORD){"flight", LD_BASE_NONE},
@@ -1307,6 +1343,9 @@ static const field_row rocket_fields[] = {
     {"air_brakes", BLOCK(ld_model, rocket.air_brakes, air_brakes_block), .initial_doc = "none",
      SWITCH(ld_model, rocket.air_brakes.present, brakes_words), .other_is_bool = true,
      .doc = "additional drag along the axis at the mass centre, in free flight"},
+    {"line", BLOCK(ld_model, rocket.line, line_block), .initial_doc = "none",
+     SWITCH(ld_model, rocket.line.present, line_words), .other_is_bool = true,
+     .doc = "that the rocket pulls out of a container"},
     {"aerodynamics", BLOCK(ld_model, rocket.aerodynamics, aerodynamics_block),
      .initial_doc = "none", SWITCH(ld_model, rocket.aerodynamics.present, aerodynamics_words),
      .other_is_bool = true,

@@ -639,6 +639,30 @@ static void parachute_rules(const rule_set *rules)
     }
 }
 
+static void line_rules(const rule_set *rules)
+{
+    const ld_model *model = rules->model;
+    const ld_line *one = &model->rocket.line;
+    if (!one->present)
+        return;
+    if (model->environment.earth.kind != LD_EARTH_FLAT)
+        report_broken(rules, "rocket.line", 0, "requires a flat Earth (environment.earth: flat)");
+    if (model_firing_count(model) > 1)
+        report_broken(rules, "rocket.line", 0, "requires a single rocket; this scenario fires %d",
+                      model_firing_count(model));
+    if (one->stand == LD_LINE_ON_LAUNCHER && !model_has_launcher(model))
+        report_broken(rules, "rocket.line.stand", 0,
+                      "a flight alone has no launcher; give `stand: ground`");
+    if (one->breaking_force <= one->tension)
+        report_broken(rules, "rocket.line.tension", 0,
+                      "%g N is not below the breaking force of %g N", one->tension,
+                      one->breaking_force);
+    if (one->stand == LD_LINE_ON_GROUND && model->environment.ground == LD_GROUND_PLANE &&
+        one->container[1] < model->environment.ground_height)
+        report_broken(rules, "rocket.line.container", 0, "y = %g m lies below the ground at %g m",
+                      one->container[1], model->environment.ground_height);
+}
+
 static void end_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -740,6 +764,7 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
     aerodynamics_rules(&all);
     brakes_rules(&all);
     parachute_rules(&all);
+    line_rules(&all);
     end_rules(&all);
     coupling_rules(&all);
     scatter_rules(&all);

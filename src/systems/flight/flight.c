@@ -9,6 +9,7 @@
 #include "model/blocks/rocket.h"
 #include "model/parts.h"
 #include "model/salvo.h"
+#include "systems/flight/line.h"
 
 // ---- what is computed once
 
@@ -312,6 +313,23 @@ void flight_leave(const flight_system *self, const flight_phase *phase, double t
     pose->r_O1 = O1.r;
     pose->v_O1 = O1.v;
     pose->q_IB = q_from_matrix(m3_mul(m3_transpose(ground_axes(self, t)), A_CB));
+}
+
+line_bridle flight_point(const flight_system *self, const flight_phase *phase, double t,
+                         const double *state, const double *state_dot, v3 r)
+{
+    rocket_mass mass = flight_mass(self, phase, t);
+    v3 w_N = v3_from(state + FLIGHT_W), turning = v3_cross(v3_make(w_N.x, 0, 0), w_N);
+    m3 A_CN = q_matrix(q_from(state + FLIGHT_Q));
+    v3 arm = m3_apply(m3_mul(A_CN, m3_rotation_x(state[FLIGHT_ROLL])), v3_sub(r, mass.c));
+    v3 w = m3_apply(A_CN, w_N);
+    v3 alpha = m3_apply(A_CN, v3_sub(v3_from(state_dot + FLIGHT_W), turning));
+    v3 spun = v3_cross(w, arm);
+    return (line_bridle){
+        v3_add(v3_from(state + FLIGHT_R), arm),
+        v3_add(v3_from(state + FLIGHT_V), spun),
+        v3_add(v3_from(state_dot + FLIGHT_V), v3_add(v3_cross(alpha, arm), v3_cross(w, spun))),
+    };
 }
 
 earth_motion flight_center(const flight_system *self, double t, const double *state)

@@ -30,8 +30,10 @@
 #include "environment/wind.h"
 #include "math/vectors/quaternion.h"
 
+struct flight_line;
 struct ld_flight;
 struct ld_rocket;
+struct line_bridle;
 
 enum {
     FLIGHT_R = 0,
@@ -125,6 +127,7 @@ typedef struct flight_phase {
     double hangs_since, area, slope; // its drag area [m2] then [s], [m2/s] while it fills
     double lowest_trigger; // [m] height at or below which a parachute's trigger waits; else -inf
     int changes;           // of the numbers, so far
+    const struct flight_line *line; // that the rocket pulls (line.h); NULL: none
     flight_numbers number;
     flight_tables tables;
 } flight_phase;
@@ -244,6 +247,11 @@ double flight_height(const flight_system *self, const double *state);
 double flight_height_rate(const flight_system *self, const flight_phase *phase, double t,
                           const double *state);
 
+// The point of the rocket at r of B, with its acceleration by the rates of the state; on a flat
+// Earth.
+struct line_bridle flight_point(const flight_system *self, const flight_phase *phase, double t,
+                                const double *state, const double *state_dot, v3 r);
+
 // Flow about the rocket.
 typedef struct flight_flow {
     double altitude;        // [m] of the mass centre
@@ -261,6 +269,9 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
 // The air where a rocket in its tube has its mass centre r [m] of I: as it will be when the flight
 // begins, its turbulence that of `left` [m] before the mouth, the way that the rocket has to go.
 moving_air flight_air_at(const flight_system *self, double t, v3 r, double left);
+
+// The same without turbulence, on a flat Earth.
+moving_air flight_steady_air_at(const flight_system *self, double t, v3 r);
 
 // By how many reference diameters the mass centre lies ahead of the centre of pressure at a Mach
 // number; NaN where the air's forces have none.

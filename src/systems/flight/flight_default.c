@@ -2,7 +2,9 @@
 #define LANES 1
 #include "math/functions.h"
 #include "math/vectors/mat3.h"
+#include "model/blocks/rocket.h"
 #include "systems/flight/flight_code.h"
+#include "systems/flight/line.h"
 
 static flight_lanes lane_of(const flight_system *self, flight_phase *phase)
 {
@@ -19,11 +21,31 @@ static flight_lanes lane_without_phase(const flight_system *self, flight_tables 
     return (flight_lanes){{self}, {NULL}, (const double *)&self->number, (double *)tables};
 }
 
+// A line's force at the bridle, besides what else acts on the rocket.
+static void pull(const flight_system *self, const flight_phase *phase, double t,
+                 const double *state, double *state_dot)
+{
+    rocket_mass mass = flight_mass(self, phase, t);
+    v3 force = line_force(phase->line, t);
+    v3 v_dot = v3_axpy(v3_from(state_dot + FLIGHT_V), 1 / mass.m, force);
+    v3_store(state_dot + FLIGHT_V, v_dot);
+    if (phase->hangs) // a point
+        return;
+    m3 A_NB = m3_rotation_x(state[FLIGHT_ROLL]);
+    m3 A_CB = m3_mul(q_matrix(q_from(state + FLIGHT_Q)), A_NB);
+    v3 arm = v3_sub(v3_from(self->rocket->line.bridle), mass.c);
+    v3 moment = v3_cross(arm, m3_apply_transposed(A_CB, force));
+    v3 alpha = m3_apply(A_NB, m3_apply(m3_symmetric_inverse(mass.J), moment));
+    v3_store(state_dot + FLIGHT_W, v3_add(v3_from(state_dot + FLIGHT_W), alpha));
+}
+
 void flight_rates(const flight_system *self, flight_phase *phase, double t, const double *state,
                   double *state_dot)
 {
     const flight_lanes one = lane_of(self, phase);
     flight_rates_of(&one, &t, state, state_dot);
+    if (phase->line)
+        pull(self, phase, t, state, state_dot);
 }
 
 unsigned flight_watch(const flight_system *self, flight_phase *phase, const flight_step *step)
@@ -72,6 +94,14 @@ moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
     air here = atmosphere_at(&self->atmosphere, altitude);
     return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
                         here.speed_of_sound};
+}
+
+moving_air flight_steady_air_at(const flight_system *self, double t, v3 r)
+{
+    double altitude = earth_altitude(&self->earth, r);
+    air here = atmosphere_at(&self->atmosphere, altitude);
+    return (moving_air){self->wind.present ? wind_here(self, t, r, altitude) : v3_zero(),
+                        here.density, here.speed_of_sound};
 }
 
 flight_flow flight_flow_at(const flight_system *self, double t, const double *state)
