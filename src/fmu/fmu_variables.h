@@ -57,13 +57,6 @@ void fmu_variables_free(fmu_variables *self);
 
 void fmu_variable_free(fmu_variable *self);
 
-// The same of a part of a model, and the part (fmu_export.c).
-ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part *part,
-                             fmu_variables *variables, ld_error *error);
-// ld_fmu_export(), but what is selected may not be there.
-ld_status fmu_export_part(const ld_model *model, const ld_fmu_options *options, const char *file,
-                          ld_error *error);
-
 // Gives them their value references: the same name has the same one in every FMU. Where two names
 // of one FMU have the same, the latter takes the next that is free. False: no memory.
 bool fmu_variables_refer(fmu_variables *self);

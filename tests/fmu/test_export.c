@@ -1,8 +1,10 @@
 // FMUs for co-simulation, by an importer of our own: what they report is what the library reports,
 // to the bit, in steps of any length; states come back to the bit; early returns stand at the
 // events; what is wrong is refused with a line of the log.
-// link: -ldl
+// link: -ldl -lz
 #include <pthread.h>
+
+#include <zlib.h>
 
 #include "fmu/fmi2_interface.h"
 #include "fmu/fmi3_interface.h"
@@ -829,6 +831,116 @@ static void has_what_is_chosen(void **state)
                                    "\"rocket.mass\"?\n");
 }
 
+// ---- what importers demand (docs/fmi.md) ----
+
+static unsigned char *read_file_of(const unpacked_fmu *fmu, const char *name, long *size)
+{
+    static unsigned char bytes[1 << 18];
+    char path[512];
+    snprintf(path, sizeof path, "%s/%s", fmu->folder, name);
+    FILE *stream = fopen(path, "rb");
+    if (!stream)
+        return NULL;
+    *size = (long)fread(bytes, 1, sizeof bytes - 1, stream);
+    bytes[*size] = '\0';
+    fclose(stream);
+    return bytes;
+}
+
+// Its head's width, height, 8 bits of red, green, blue, alpha; its rows, and what is seen in the
+// middle of the tube and in the upper left corner.
+static void check_icon(const unsigned char *png, long size, bool has_tube)
+{
+    enum { SIDE = 128, ROW = 1 + 4 * SIDE };
+    static unsigned char row[SIDE * ROW + 1];
+    static const unsigned char head[] = {0, 0, 0, SIDE, 0, 0, 0, SIDE, 8, 6, 0, 0, 0};
+    assert_memory_equal(png, "\x89PNG\r\n\x1a\n", 8);
+    uLongf length = sizeof row;
+    for (long at = 8; at < size;) {
+        uLong data =
+            (uLong)png[at] << 24 | (uLong)png[at + 1] << 16 | (uLong)png[at + 2] << 8 | png[at + 3];
+        const unsigned char *type = png + at + 4, *sum = type + 4 + data;
+        assert_int_equal(crc32(crc32(0, NULL, 0), type, (uInt)(4 + data)),
+                         (uLong)sum[0] << 24 | (uLong)sum[1] << 16 | (uLong)sum[2] << 8 | sum[3]);
+        if (memcmp(type, "IHDR", 4) == 0)
+            assert_memory_equal(type + 4, head, sizeof head);
+        if (memcmp(type, "IDAT", 4) == 0)
+            assert_int_equal(uncompress(row, &length, type + 4, data), Z_OK);
+        at += 12 + (long)data;
+    }
+    assert_int_equal(length, SIDE * ROW);
+    const unsigned char *corner = row + 1, *tube = row + 72 * ROW + 1 + 4 * 56;
+    assert_int_equal(corner[3], 0);
+    assert_int_equal(tube[3], 255);
+    assert_int_equal(tube[0], has_tube ? 0x8a : 0x54);
+}
+
+static void check_demands(const char *scenario, int version)
+{
+    unpacked_fmu fmu = fmu_open(scenario, version);
+    const char *structure = strstr(fmu.description, "<ModelStructure>");
+    char word[1024];
+    int parameters = 0, texts = 0;
+    size_t longest = 0;
+    for (const char *at = strstr(fmu.description, "<ModelVariables>");
+         (at = strstr(at + 1, " name=\"")) && at < structure;) {
+        const char *end = strstr(at, version == 2 ? "</ScalarVariable>" : "\n");
+        attribute_after(at, "name", word, sizeof word);
+        longest = strlen(word) > longest ? strlen(word) : longest;
+        // letters, digits, dots, hyphens; rates in brackets
+        assert_int_equal(strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                      "0123456789._-()"),
+                         strlen(word));
+        attribute_after(at, "description", word, sizeof word);
+        assert_true(word[0] && !strchr(word, '\n'));
+        attribute_after(at, "causality", word, sizeof word);
+        bool parameter = strcmp(word, "parameter") == 0, input = strcmp(word, "input") == 0;
+        const char *start = strstr(at, " start=\""), *value = strstr(at, "<Start value=\""),
+                   *text = strstr(at, "<String");
+        bool has_start = (start && start < end) || (value && value < end);
+        assert_true(has_start == (parameter || input));
+        bool is_text =
+            version == 2 ? text && text < end : memcmp(at - strlen("<String"), "<String", 7) == 0;
+        texts += is_text;
+        assert_true(!is_text || parameter);
+        parameters += parameter;
+    }
+    assert_true(parameters > texts && texts > 10);
+    assert_null(strstr(fmu.description, "unit=\"1\""));
+    assert_int_equal(strstr(fmu.description, "name=\"time\"") != NULL, version == 3);
+    CHECK_WITHIN("longest name [letters]", (double)longest, 30, 63);
+
+    long size;
+    const unsigned char *page = read_file_of(&fmu, "documentation/index.html", &size);
+    assert_non_null(page);
+    assert_non_null(strstr((const char *)page, "How to couple it"));
+    assert_non_null(strstr((const char *)page, "<td><code>scenario.rocket.mass</code></td><td>kg"
+                                               "</td><td>60</td>"));
+    assert_null(strstr((const char *)page, "<script"));
+    for (const char *at = (const char *)page; (at = strstr(at, "<td><code>")); at++) {
+        char quoted[300];
+        snprintf(quoted, sizeof quoted, " name=\"%.*s\"", (int)strcspn(at + 10, "<"), at + 10);
+        assert_non_null(strstr(fmu.description, quoted));
+    }
+    const unsigned char *png =
+        read_file_of(&fmu, version == 2 ? "model.png" : "terminalsAndIcons/icon.png", &size);
+    assert_non_null(png);
+    check_icon(png, size, !strstr(scenario, "--part vehicle"));
+    const unsigned char *svg = read_file_of(&fmu, "terminalsAndIcons/icon.svg", &size);
+    assert_true((svg != NULL) == (version == 3));
+    assert_true(!svg || memcmp(svg, "<svg xmlns=", 11) == 0);
+    fmu_close(&fmu);
+}
+
+static void has_what_importers_demand(void **state)
+{
+    (void)state;
+    check_demands("examples/fixed.yaml", 2);
+    check_demands("examples/ship.yaml", 3);
+    check_demands("examples/reference.yaml --set run.lead_in=0s --part vehicle", 3);
+    check_demands("examples/reference.yaml --set run.lead_in=0s --part launcher", 2);
+}
+
 // ---- two at a time ----
 
 typedef struct side {
@@ -888,6 +1000,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(refuses_the_same_in_version_2, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_described, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(is_named_and_timed, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(has_what_importers_demand, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(has_what_is_chosen, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(go_side_by_side, shell_make, shell_remove),
     };

@@ -1,4 +1,4 @@
-#include "fmu/fmu_selection.h"
+#include "fmu/pack/fmu_selection.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -101,8 +101,11 @@ ld_status fmu_selection_check(const ld_fmu_options *options, const fmu_variables
 
 // ---- taking out ----
 
+// In FMI 2.0 the independent variable may be left out: one named time stops OpenModelica's import.
 static bool stays(const ld_fmu_options *options, const fmu_variables *list, const fmu_variable *v)
 {
+    if (v->group == FMU_TIME)
+        return options->version > 2;
     if (is_chosen_parameter(v))
         return !options->parameters || is_listed(v, options->parameters);
     bool connects = v->group == FMU_PART_OUTPUT && list->runner->input_count > 0;

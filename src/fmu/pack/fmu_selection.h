@@ -10,7 +10,8 @@
 ld_status fmu_selection_check(const ld_fmu_options *options, const fmu_variables *list, int count,
                               ld_error *error);
 
-// Takes out of the list what no pattern applies to; value references stay. What connects parts with
+// Takes out of the list what no pattern applies to, and what the version leaves out; value
+// references stay. What connects parts with
 // each other stays, too. Nothing can be found by its reference in the list afterwards.
 void fmu_selection_take(const ld_fmu_options *options, fmu_variables *list);
 

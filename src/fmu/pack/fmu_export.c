@@ -1,4 +1,6 @@
 // Packs an FMU: description, binary, resources, notices.
+#include "fmu/pack/fmu_export.h"
+
 #include <ctype.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -9,9 +11,11 @@
 #include "base/numeric_locale.h"
 #include "fmu/fmu_description.h"
 #include "fmu/fmu_inside.h"
-#include "fmu/fmu_selection.h"
 #include "fmu/fmu_source.h"
-#include "fmu/package.h"
+#include "fmu/pack/fmu_icon.h"
+#include "fmu/pack/fmu_page.h"
+#include "fmu/pack/fmu_selection.h"
+#include "fmu/pack/package.h"
 #include "foreign/unpack.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/scenario.h"
@@ -30,9 +34,14 @@ typedef struct contents {
     bool checked; // what is selected must be there
     char token[FMU_TOKEN_SIZE];
     char identifier[IDENTIFIER_SIZE];
-    char *scenario, *description, *list, *part;
-    size_t scenario_length, description_length, list_length, part_length;
+    char *scenario, *description, *list, *part, *page, *svg, *png;
+    size_t scenario_length, description_length, list_length, part_length, page_length, svg_length,
+        png_length;
 } contents;
+
+// The icon, which FMI 2.0 has as PNG alone.
+#define ICON_2 "model.png"
+#define ICON_3 "terminalsAndIcons/icon"
 
 static ld_status print_scenario(const ld_model *model, contents *self, ld_error *error)
 {
@@ -116,7 +125,25 @@ static ld_status print_description(const fmu_variables *variables, contents *sel
     FILE *stream = memory_stream(&self->description, &self->description_length);
     if (stream)
         fmu_description_write(&description, stream);
+    bool fine = stream && fclose(stream) == 0;
+    stream = fine ? memory_stream(&self->page, &self->page_length) : NULL;
+    if (stream)
+        fmu_page_write(&description, self->model,
+                       self->options.version == 2 ? "../" ICON_2 : "../" ICON_3 ".png", stream);
     return stream && fclose(stream) == 0 ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory");
+}
+
+static ld_status draw_icon(contents *self, ld_error *error)
+{
+    FILE *stream = memory_stream(&self->svg, &self->svg_length);
+    if (stream)
+        fmu_icon_write_svg(self->model, self->options.part, stream);
+    bool fine = stream && fclose(stream) == 0;
+    stream = fine ? memory_stream(&self->png, &self->png_length) : NULL;
+    if (stream)
+        fine = fmu_icon_write_png(self->model, self->options.part, stream);
+    return stream && fclose(stream) == 0 && fine ? LD_OK
+                                                 : ld_fail(error, LD_ERR_MEMORY, "no memory");
 }
 
 // When the launch of the whole is over, a base outside at rest: its length rounded up to two
@@ -206,6 +233,11 @@ static void put_all(package *self, const void *data)
     put_sources(self, from, ld_model_source(from->model));
     package_put(self, "documentation/licenses/license.txt", fmu_notices,
                 (size_t)(fmu_notices_end - fmu_notices));
+    package_put(self, "documentation/index.html", from->page, from->page_length);
+    package_put(self, from->options.version == 2 ? ICON_2 : ICON_3 ".png", from->png,
+                from->png_length);
+    if (from->options.version > 2)
+        package_put(self, ICON_3 ".svg", from->svg, from->svg_length);
 }
 
 static ld_status export_checked(const ld_model *model, const ld_fmu_options *options, bool checked,
@@ -225,6 +257,8 @@ static ld_status export_checked(const ld_model *model, const ld_fmu_options *opt
     ld_status status = print_scenario(model, &from, error);
     if (!status)
         status = describe(&from, error);
+    if (!status)
+        status = draw_icon(&from, error);
     numeric_locale_leave(before);
     if (!status)
         status = package_write(file, put_all, &from, error);
@@ -232,6 +266,9 @@ static ld_status export_checked(const ld_model *model, const ld_fmu_options *opt
     free(from.list);
     free(from.part);
     free(from.description);
+    free(from.page);
+    free(from.svg);
+    free(from.png);
     return status;
 }
 

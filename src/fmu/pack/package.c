@@ -1,4 +1,4 @@
-#include "fmu/package.h"
+#include "fmu/pack/package.h"
 
 #include <errno.h>
 #include <stdbool.h>
