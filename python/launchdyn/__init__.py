@@ -32,7 +32,11 @@ from .views import View, draw, figures
 
 
 def library_version() -> str:
-    """The version of the library that was found, "0.1.0"."""
+    """The version of the library that was found, "0.1.0".
+
+    >>> ld.library_version() == ld.__version__
+    True
+    """
     return str(_found.ld_version().decode())
 
 

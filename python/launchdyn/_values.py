@@ -21,7 +21,11 @@ Sets = Union[Mapping[str, Any], Sequence[str], None]
 
 @dataclass(frozen=True)
 class Key:
-    """A key of the scenario language that has a value."""
+    """A key of the scenario language that has a value.
+
+    >>> scenario.key("rocket.mass").unit
+    'kg'
+    """
 
     path: str  #: "rocket.mass"; N stands for the name or number of a list's member
     unit: str  #: SI, "" without
@@ -33,12 +37,20 @@ class Key:
 
     @property
     def components(self) -> str:
-        """Names of a vector's components, "xyz"; "" of all else."""
+        """Names of a vector's components, "xyz"; "" of all else.
+
+        >>> scenario.key("rocket.center").components
+        'xyz'
+        """
         found = re.match("(two|three|four) numbers", self.expected)
         return {"two": "yz", "three": "xyz", "four": "wxyz"}[found[1]] if found else ""
 
     def column_units(self, columns: int) -> list[str]:
-        """SI units of a table's columns; empty where a table of so many is none of this key."""
+        """SI units of a table's columns; empty where a table of so many is none of this key.
+
+        >>> scenario.key("rocket.motor.thrust").column_units(2)
+        ['s', 'N']
+        """
         for row in re.findall(r"\[([^]]*)\]", self.expected):
             names = row.split(", ")
             if len(names) == columns:
@@ -48,7 +60,11 @@ class Key:
 
 @functools.lru_cache(maxsize=None)
 def keys() -> tuple[Key, ...]:
-    """Every key of the scenario language, with its unit, range and description."""
+    """Every key of the scenario language, with its unit, range and description.
+
+    >>> ld.keys()[0].path
+    'launchdyn'
+    """
     found: list[Key] = []
 
     def take(_: Any, pointer: Any) -> None:

@@ -22,7 +22,11 @@ VERDICTS = ("agree", "disagree", "cannot tell")
 
 @dataclass(frozen=True)
 class Validation:
-    """An error with its standard uncertainties, in SI; NaN: not known (docs/compare.md)."""
+    """An error with its standard uncertainties, in SI; NaN: not known (docs/compare.md).
+
+    >>> compared.series["height"].of.verdict
+    'agree'
+    """
 
     error: float  #: E, simulated less measured; of a series its rms
     u_num: float
@@ -35,7 +39,11 @@ class Validation:
 
 @dataclass(frozen=True)
 class ComparedSeries:
-    """A sensor's series, in SI, without gaps, saturated samples and what lies outside the run."""
+    """A sensor's series, in SI, without gaps, saturated samples and what lies outside the run.
+
+    >>> compared.series["height"].unit
+    'm'
+    """
 
     name: str  #: of its column in the log
     unit: str  #: "" without
@@ -56,7 +64,11 @@ class ComparedSeries:
 
 @dataclass(frozen=True)
 class ComparedResult:
-    """A number, in SI."""
+    """A number, in SI.
+
+    >>> [(one.name, one.of.verdict) for one in compared.results]
+    [('apogee', 'agree'), ('apogee after', 'agree')]
+    """
 
     name: str
     unit: str  #: "" without
@@ -66,7 +78,11 @@ class ComparedResult:
 
 
 class Comparison:
-    """A run compared with a log; str() is the table of the command."""
+    """A run compared with a log; str() is the table of the command.
+
+    >>> compared
+    <launchdyn.Comparison: agree, agree, agree>
+    """
 
     def __init__(self, handle: Handle) -> None:
         """Of the library's handle: use compare()."""
@@ -78,7 +94,11 @@ class Comparison:
 
     @property
     def series(self) -> dict[str, ComparedSeries]:
-        """Series by the names of their columns."""
+        """Series by the names of their columns.
+
+        >>> list(compared.series)
+        ['height']
+        """
         found: dict[str, ComparedSeries] = {}
         while pointer := library.ld_comparison_series(self._handle.pointer, len(found)):
             one = _series(pointer[0])
@@ -87,7 +107,11 @@ class Comparison:
 
     @property
     def results(self) -> list[ComparedResult]:
-        """The numbers that were compared."""
+        """The numbers that were compared.
+
+        >>> [one.name for one in compared.results]
+        ['apogee', 'apogee after']
+        """
         found: list[ComparedResult] = []
         while pointer := library.ld_comparison_result(self._handle.pointer, len(found)):
             r = pointer[0]
@@ -97,7 +121,11 @@ class Comparison:
 
     @property
     def notes(self) -> list[str]:
-        """Remarks."""
+        """Remarks.
+
+        >>> len(compared.notes)
+        0
+        """
         found: list[str] = []
         while note := library.ld_comparison_note(self._handle.pointer, len(found)):
             found.append(text_of(note))
@@ -105,7 +133,10 @@ class Comparison:
 
     def draw(self, file: PathLike) -> None:
         """Draws measured and simulated series with their residuals by gnuplot: file.svg, file.pdf
-        or file.png."""
+        or file.png.
+
+        >>> compared.draw(folder / "compared.svg")
+        """
         error = ld_error()
         check(library.ld_comparison_draw(self._handle.pointer, coded_path(file),
                                          ctypes.byref(error)), error)
@@ -140,7 +171,14 @@ def compare(folder: PathLike, log: PathLike, sensors: Optional[PathLike] = None,
     """Compares the run in a folder with a log, a CSV file (docs/compare.md). `sensors`: the file
     that says what its sensors are; without it that beside the log. `refine` finds u_num by two
     more runs, `samples` u_input by so many of the scenario's scatter, `study` that of results by
-    the study in a folder."""
+    the study in a folder.
+
+    `rocket`: which, from 1, in the order of firing.
+
+    >>> compared = ld.compare(folder / "student", log)
+    >>> compared.series["height"].of.verdict
+    'agree'
+    """
     error, pointer = ld_error(), ctypes.c_void_p()
     with Interrupt() as interrupt:
         options = ld_compare_options(

@@ -18,7 +18,11 @@ from .scenario import Scenario
 
 
 class Derivative(NamedTuple):
-    """Of a result by a key, in SI."""
+    """Of a result by a key, in SI.
+
+    >>> ld.sensitivity(scenario, ["rocket.mass"])["exit_speed"]["rocket.mass"].smooth
+    True
+    """
 
     value: Optional[float]  #: of the result
     derivative: Optional[float]
@@ -29,7 +33,12 @@ class Derivative(NamedTuple):
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """Derivatives by result and key; printed, it is the table of `launchdyn sensitivity`."""
+    """Derivatives by result and key; printed, it is the table of `launchdyn sensitivity`.
+
+    >>> sensitivity = ld.sensitivity(scenario, ["rocket.mass"])
+    >>> sensitivity["exit_speed"]["rocket.mass"].derivative < 0
+    True
+    """
 
     of: dict[str, dict[str, Derivative]]  #: by result, then key
     document: dict[str, Any] = field(repr=False)  #: all of it, as --json prints it
@@ -65,6 +74,12 @@ def sensitivity(scenario: Scenario, keys: Union[Sequence[str], Mapping[str, Any]
 
     `keys` are paths, or paths with the step to either side, {"base.azimuth": "0.01 deg"}; None
     stands for 1e-4 of the key's value. `results` are names in place of the usual ones.
+
+    `threads` run launches side by side.
+
+    >>> found = ld.sensitivity(scenario, ["rocket.mass"], results=["exit_speed"])
+    >>> found["exit_speed"]["rocket.mass"].smooth
+    True
     """
     steps = dict(keys) if isinstance(keys, Mapping) else dict.fromkeys(keys)
     asked = (ld_derivative_key * max(len(steps), 1))()

@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 
 
 class Status(enum.IntEnum):
-    """What came of a call; the values are those of the C interface (status.h)."""
+    """What came of a call; the values are those of the C interface (status.h).
+
+    >>> ld.Status(2).name
+    'FILE'
+    """
 
     OK = 0
     INPUT = 1  #: an argument, the scenario or a file that is read is wrong or not there
@@ -31,7 +35,11 @@ class Status(enum.IntEnum):
 
 @dataclass(frozen=True)
 class Message:
-    """One thing wrong with a scenario, or implausible."""
+    """One thing wrong with a scenario, or implausible.
+
+    >>> print(error.messages[0])
+    mine.yaml:3:3: rocket.mas: unknown key, did you mean "mass"?
+    """
 
     file: str  #: that holds the key; "--set" for a value set by its path
     line: int  #: from 1; 0 where there is none; of a value set by its path, its number from 1
@@ -51,7 +59,11 @@ class Message:
 class LaunchdynError(Exception):
     """Base of all errors of the library: `code`, the sentence `text`, and the `messages` with
     their places where it is about a scenario. `file`, `line`, `column`, `key` and `suggestion`
-    are those of the first message; None where there is none."""
+    are those of the first message; None where there is none.
+
+    >>> error.code.name, error.key, error.suggestion
+    ('INPUT', 'rocket.mas', 'mass')
+    """
 
     code = Status.OK
     result: Optional[Result] = None  #: of a run that ended early: what it had until then
@@ -66,74 +78,136 @@ class LaunchdynError(Exception):
 
     @property
     def file(self) -> Optional[str]:
-        """Of the first message: the file that holds the key."""
+        """Of the first message: the file that holds the key.
+
+        >>> error.file
+        'mine.yaml'
+        """
         return self.messages[0].file if self.messages else None
 
     @property
     def line(self) -> Optional[int]:
-        """Of the first message: the line, from 1."""
+        """Of the first message: the line, from 1.
+
+        >>> error.line
+        3
+        """
         return self.messages[0].line if self.messages else None
 
     @property
     def column(self) -> Optional[int]:
-        """Of the first message: the column, from 1, in characters."""
+        """Of the first message: the column, from 1, in characters.
+
+        >>> error.column
+        3
+        """
         return self.messages[0].column if self.messages else None
 
     @property
     def key(self) -> Optional[str]:
-        """Of the first message: the key's full path."""
+        """Of the first message: the key's full path.
+
+        >>> error.key
+        'rocket.mas'
+        """
         return self.messages[0].key if self.messages else None
 
     @property
     def suggestion(self) -> Optional[str]:
-        """The name that was probably meant."""
+        """The name that was probably meant.
+
+        >>> error.suggestion
+        'mass'
+        """
         return self.messages[0].suggestion if self.messages else suggested(self.text)
 
 
 class InputError(LaunchdynError, ValueError):
-    """An argument, the scenario or a file that is read is wrong or not there."""
+    """An argument, the scenario or a file that is read is wrong or not there.
+
+    >>> try:
+    ...     scenario.derive({"rocket.mass": "61 m"})
+    ... except ld.InputError as wrong:
+    ...     print(wrong)
+    rocket.mass: found "61 m", a unit of the wrong dimension; expected
+    a number with a unit of kg, > 0 kg
+    """
 
     code = Status.INPUT
 
 
 class UnknownName(InputError, KeyError):
-    """There is no such key, column or number; `suggestion` is the nearest one."""
+    """There is no such key, column or number; `suggestion` is the nearest one.
+
+    >>> try:
+    ...     result["tip.x"]
+    ... except ld.UnknownName as wrong:
+    ...     print(wrong)
+    there is no column "tip.x", did you mean "tip.y"?
+    """
 
     __str__ = LaunchdynError.__str__
 
 
 class FileError(LaunchdynError):
-    """A file cannot be written, or the system refuses to read it."""
+    """A file cannot be written, or the system refuses to read it.
+
+    >>> ld.FileError.code.name
+    'FILE'
+    """
 
     code = Status.FILE
 
 
 class OutOfMemory(LaunchdynError, MemoryError):
-    """There is no memory."""
+    """There is no memory.
+
+    >>> issubclass(ld.OutOfMemory, MemoryError)
+    True
+    """
 
     code = Status.MEMORY
 
 
 class NumericError(LaunchdynError, ArithmeticError):
-    """The numerics failed: NaN, a singular matrix, no convergence."""
+    """The numerics failed: NaN, a singular matrix, no convergence.
+
+    >>> issubclass(ld.NumericError, ArithmeticError)
+    True
+    """
 
     code = Status.NUMERIC
 
 
 class LaunchError(LaunchdynError):
-    """The launch cannot continue: stuck, jammed, never released, beyond a table."""
+    """The launch cannot continue: stuck, jammed, never released, beyond a table.
+
+    >>> try:
+    ...     scenario.derive({"rocket.lock.release_force": "1 MN"}).run()
+    ... except ld.LaunchError as stuck:
+    ...     print(stuck.result.stopped is not None)
+    True
+    """
 
     code = Status.LAUNCH
 
 
 class Interrupted(LaunchdynError):
-    """It was stopped on request."""
+    """It was stopped on request.
+
+    >>> ld.Interrupted.code.name
+    'INTERRUPTED'
+    """
 
     code = Status.INTERRUPTED
 
 
 class MissingError(LaunchdynError):
-    """A program or a feature that is needed is not there."""
+    """A program or a feature that is needed is not there.
+
+    >>> ld.MissingError.code.name
+    'MISSING'
+    """
 
     code = Status.MISSING
 

@@ -24,7 +24,12 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 class FittedKey(NamedTuple):
-    """What a fit says of a key, in SI."""
+    """What a fit says of a key, in SI.
+
+    >>> key = fitted.keys["rocket.motor.thrust_scale"]
+    >>> key.unit, key.at_bound
+    ('', False)
+    """
 
     value: float
     deviation: float  #: standard; NaN at a bound, or where the data do not tell the key
@@ -36,7 +41,11 @@ class FittedKey(NamedTuple):
 
 @dataclass(frozen=True)
 class Fit:
-    """What was fitted (docs/fit.md); printed, it is the table of `launchdyn fit`."""
+    """What was fitted (docs/fit.md); printed, it is the table of `launchdyn fit`.
+
+    >>> fitted.keys["rocket.motor.thrust_scale"].deviation > 0
+    True
+    """
 
     keys: dict[str, FittedKey]  #: by path
     covariance: npt.NDArray[np.float64]  #: [keys, keys] in SI
@@ -86,6 +95,13 @@ def fit(scenario: Scenario, files: Union[PathLike, Sequence[PathLike]],
     and standard deviation; bare numbers are in SI. `sensors` describe the logs, in their order,
     in place of the files beside them; `plot` names a picture to draw. With a folder, Ctrl-C
     keeps what was computed: the same call continues, and fitted.yaml is written there.
+
+    `threads` run launches side by side; `starts` searches begin at points that follow from
+    `seed`.
+
+    >>> found = ld.fit(scenario, launches, {"rocket.motor.thrust_scale": (0.9, 1.1)}, starts=1)
+    >>> round(found.keys["rocket.motor.thrust_scale"].value, 2)
+    1.02
     """
     unknown = set(prior or {}) - set(over)
     if unknown:

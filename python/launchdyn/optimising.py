@@ -22,7 +22,11 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 class OptimisedKey(NamedTuple):
-    """A key in SI."""
+    """A key in SI.
+
+    >>> optimum.keys["rocket.lock.release_force"].unit
+    'N'
+    """
 
     value: float  #: at which the aim is least
     before: float  #: the scenario's
@@ -31,7 +35,11 @@ class OptimisedKey(NamedTuple):
 
 @dataclass(frozen=True)
 class Optimum:
-    """What was found (docs/optimise.md); printed, it is the table of `launchdyn optimise`."""
+    """What was found (docs/optimise.md); printed, it is the table of `launchdyn optimise`.
+
+    >>> optimum.holds
+    True
+    """
 
     keys: dict[str, OptimisedKey]  #: by path
     least: Estimate  #: the aim, with its 95 % interval on samples that the search did not use
@@ -42,7 +50,10 @@ class Optimum:
     handle: Handle = field(repr=False, compare=False)
 
     def plot(self, file: PathLike) -> None:
-        """Draws the course, candidate by candidate, into a .svg, .pdf or .png file."""
+        """Draws the course, candidate by candidate, into a .svg, .pdf or .png file.
+
+        >>> optimum.plot(folder / "course.svg")
+        """
         error = ld_error()
         check(library.ld_optimise_plot(self.handle.pointer, coded_path(file),
                                        ctypes.byref(error)), error)
@@ -77,6 +88,12 @@ def optimise(scenario: Scenario, folder: Optional[PathLike] = None, threads: int
 
     With a folder, Ctrl-C keeps what was computed: the same call continues, and optimised.yaml is
     written there.
+
+    `threads` run launches side by side.
+
+    >>> found = ld.optimise(asking)
+    >>> found.keys["rocket.lock.release_force"].value < 10e3
+    True
     """
     error, pointer = ld_error(), ctypes.c_void_p()
     check(library.ld_optimise_create(scenario.handle.pointer, ctypes.byref(pointer),

@@ -20,21 +20,34 @@ Numbers = Union[float, Sequence[float], Array]
 
 
 class Strength(NamedTuple):
-    """How much a column moves about the equilibrium, at random and steadily."""
+    """How much a column moves about the equilibrium, at random and steadily.
+
+    >>> response.on_road("tip.y")["tip.y"]._fields
+    ('rms', 'strongest')
+    """
 
     rms: float  #: root mean square, in the column's unit
     strongest: float  #: [Hz] where most of it comes from
 
 
 class Scatter(NamedTuple):
-    """Of a number of a launch, in its unit."""
+    """Of a number of a launch, in its unit.
+
+    >>> response.exit("pitch_rate", draws=2)["pitch_rate"]._fields
+    ('mean', 'deviation')
+    """
 
     mean: float
     deviation: float  #: standard deviation
 
 
 class LoopPoints(NamedTuple):
-    """A loop at some frequencies, amplitude and phase as complex numbers."""
+    """A loop at some frequencies, amplitude and phase as complex numbers.
+
+    >>> points = vehicle.loop("elevation").points(5)
+    >>> bool(np.allclose(points.sensitivity, 1 / (1 + points.open)))
+    True
+    """
 
     open: ComplexArray  #: L [-]: the controller's torque for a torque in its place, sign turned
     tracking: ComplexArray  #: [-] measured angle per commanded one
@@ -42,7 +55,11 @@ class LoopPoints(NamedTuple):
 
 
 class Margins(NamedTuple):
-    """What a loop bears before it swings, between 0.05 and 500 Hz."""
+    """What a loop bears before it swings, between 0.05 and 500 Hz.
+
+    >>> vehicle.loop("elevation").margins._fields[:3]
+    ('raise_', 'raise_at', 'lower')
+    """
 
     raise_: float  #: all gains times this > 1 are at the limit of stability; infinity: none
     raise_at: float  #: [Hz] where they swing there
@@ -68,7 +85,11 @@ class Response(Held):
     """A launcher linearised about its equilibrium, at any speed of a range: made by
     Scenario.response(). Amplitudes and phases are complex numbers: cos(w t) of an input makes
     Re(gain e^(i w t)) of a column. A context manager; it need not be closed. One thread at a time:
-    others wait."""
+    others wait.
+
+    >>> response.speed == vehicle["base.speed"]
+    True
+    """
 
     _over = "the response is closed"
 
@@ -96,12 +117,20 @@ class Response(Held):
 
     @property
     def inputs(self) -> Columns:
-        """What may act: "road", "elevation.command", "chassis.force_y", "base.y", ..."""
+        """What may act: "road", "elevation.command", "chassis.force_y", "base.y", ...
+
+        >>> "road" in response.inputs
+        True
+        """
         return self._told(library.ld_response_inputs)
 
     @property
     def columns(self) -> Columns:
-        """What may answer: the columns of the history."""
+        """What may answer: the columns of the history.
+
+        >>> response.columns["tip.y"].unit
+        'm'
+        """
         return self._told(library.ld_response_columns)
 
     def _at(self, speed: Optional[float]) -> float:
@@ -120,10 +149,21 @@ class Response(Held):
             raise UnknownName(text_of(error.text))
         check(status, error, self._model.pointer)
 
+    def __repr__(self) -> str:
+        if not self._handle:
+            return "<closed Response>"
+        return f"<launchdyn.Response: inputs {len(self.inputs)}, columns {len(self.columns)}>"
+
     def gain(self, input: str, *names: str, frequency: Numbers,
              speed: Optional[float] = None) -> dict[str, ComplexArray]:
         """Frequency response [unit of the column per unit of the input] from an input to columns
-        at frequencies [Hz] > 0; of a vehicle at `speed` [m/s], None: the scenario's."""
+        at frequencies [Hz] > 0; of a vehicle at `speed` [m/s], None: the scenario's.
+
+        `names`: columns.
+
+        >>> response.gain("road", "tip.y", frequency=[1, 2, 5])["tip.y"].shape
+        (3,)
+        """
         f, error = _numbers(frequency), ld_error()
         gain = np.empty((len(f), len(names)), np.complex128)
         with self._lock:
@@ -136,7 +176,13 @@ class Response(Held):
 
     def on_road(self, *names: str, speed: Optional[float] = None) -> dict[str, Strength]:
         """Root mean squares of columns, in their units, on the scenario's road, over all the phases
-        that its sines may have; of a vehicle at `speed` [m/s], None: the scenario's."""
+        that its sines may have; of a vehicle at `speed` [m/s], None: the scenario's.
+
+        `names`: columns.
+
+        >>> response.on_road("tip.y")["tip.y"].rms > 0
+        True
+        """
         error = ld_error()
         rms, strongest = np.empty(len(names)), np.empty(len(names))
         with self._lock:
@@ -149,7 +195,13 @@ class Response(Held):
     def density(self, *names: str, frequency: Numbers,
                 speed: Optional[float] = None) -> dict[str, Array]:
         """One-sided power spectral densities [squares of the units per Hz] of columns on the
-        random part of the scenario's road at frequencies [Hz]."""
+        random part of the scenario's road at frequencies [Hz].
+
+        `names`: columns; `speed` [m/s] of a vehicle, None: the scenario's.
+
+        >>> response.density("tip.y", frequency=np.linspace(0.5, 20, 5))["tip.y"].shape
+        (5,)
+        """
         f, error = _numbers(frequency), ld_error()
         density = np.empty((len(f), len(names)))
         with self._lock:
@@ -163,7 +215,14 @@ class Response(Held):
                speed: Optional[float] = None) -> dict[str, Strength]:
         """Root mean squares of columns where an input is random and steady: `density` is its
         one-sided power spectral density [square of its unit per Hz] at rising frequencies [Hz],
-        straight between them, nothing beyond."""
+        straight between them, nothing beyond.
+
+        `names`: columns; `speed` [m/s] of a vehicle, None: the scenario's.
+
+        >>> white = {"frequency": [0.5, 20], "density": [1e-8, 1e-8]}
+        >>> response.random("elevation.command", "tip.y", **white)["tip.y"].rms > 0
+        True
+        """
         f, given, error = _numbers(frequency), _numbers(density), ld_error()
         if len(f) != len(given):
             raise ValueError(f"{len(f)} frequencies require as many densities; found {len(given)}")
@@ -180,7 +239,13 @@ class Response(Held):
              speed: Optional[float] = None) -> dict[str, Scatter]:
         """By what the scenario's road scatters numbers of a launch that a study keeps, such as
         "pitch_rate": from `draws` launches with sampled phases of the road; 0: to the first order,
-        some seconds. Ctrl-C stops it at its next launch."""
+        some seconds. Ctrl-C stops it at its next launch.
+
+        `names`: results of a study; `speed` [m/s] of a vehicle, None: the scenario's.
+
+        >>> response.exit("pitch_rate", draws=2)["pitch_rate"].deviation > 0
+        True
+        """
         if not names:
             raise ValueError("no results of the launch given")
         error = ld_error()
@@ -203,7 +268,11 @@ def _strengths(names: Sequence[str], rms: Array, strongest: Array) -> dict[str, 
 class Loop(Held):
     """The loop that holds a hinge of a vehicle, opened at the torque that its controller asks for:
     made by Scenario.loop(). A context manager; it need not be closed. One thread at a time: others
-    wait."""
+    wait.
+
+    >>> vehicle.loop("elevation").hinge
+    'elevation'
+    """
 
     _over = "the loop is closed"
 
@@ -214,6 +283,9 @@ class Loop(Held):
         self.hinge = hinge
         super().__init__(Handle(pointer.value, library.ld_loop_free, model))
 
+    def __repr__(self) -> str:
+        return f"<launchdyn.Loop of {self.hinge}>"
+
     def _ask(self, ask: Any, frequency: Numbers, width: int) -> ComplexArray:
         f, error = _numbers(frequency), ld_error()
         found = np.empty((len(f), width), np.complex128)
@@ -223,18 +295,32 @@ class Loop(Held):
         return found
 
     def points(self, frequency: Numbers) -> LoopPoints:
-        """Open loop, tracking, sensitivity at frequencies [Hz] > 0."""
+        """Open loop, tracking, sensitivity at frequencies [Hz] > 0.
+
+        `frequency`: [Hz].
+
+        >>> abs(vehicle.loop("elevation").points([1, 10]).open).shape
+        (2,)
+        """
         found = self._ask(library.ld_loop_points, frequency, 3)
         return LoopPoints(*(column.copy() for column in found.T))
 
     def rejection(self, frequency: Numbers) -> ComplexArray:
         """How the base disturbs the platform [-]: its angle against I per angle by which the
-        chassis turns about the hinge's axis, at frequencies [Hz] > 0."""
+        chassis turns about the hinge's axis, at frequencies [Hz] > 0.
+
+        >>> vehicle.loop("elevation").rejection(frequency=2.0).shape
+        (1,)
+        """
         return self._ask(library.ld_loop_rejection, frequency, 1)[:, 0]
 
     @property
     def margins(self) -> Margins:
-        """What it bears before it swings: factors, [Hz], [rad], [s]."""
+        """What it bears before it swings: factors, [Hz], [rad], [s].
+
+        >>> vehicle.loop("elevation").margins.raise_ > 1
+        True
+        """
         found = ld_loop_margins()
         with self._lock:
             library.ld_loop_margins_of(self._pointer, ctypes.byref(found))

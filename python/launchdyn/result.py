@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any, Optional
@@ -20,7 +20,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a history."""
+    """A column of a history.
+
+    >>> result.history.columns["tip.y"].unit
+    'm'
+    """
 
     name: str  #: e.g. "tip.y"
     unit: str  #: SI, e.g. "m"
@@ -42,7 +46,11 @@ class Columns(dict[str, Column]):
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number of a summary."""
+    """A number of a summary.
+
+    >>> result.summary.quantities["rocket.1.exit_speed"].unit
+    'm/s'
+    """
 
     name: str  #: e.g. "rocket.1.exit_speed"
     unit: str  #: SI; "" or "1": none
@@ -73,16 +81,33 @@ def nearest(name: str, names: list[str]) -> Optional[str]:
     return text_of(library.ld_nearest_name(coded(name), texts(names), len(names))) or None
 
 
+def _table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table for a notebook, folded."""
+    def line(kind: str, cells: Sequence[str]) -> str:
+        return f"<tr>{''.join(f'<{kind}>{escape(cell)}</{kind}>' for cell in cells)}</tr>"
+    body = "".join(line("td", row) for row in rows)
+    return (f"<details><summary>{escape(caption)}</summary><table><thead>{line('th', head)}"
+            f"</thead><tbody>{body}</tbody></table></details>")
+
+
 class History(Mapping[str, Array]):
     """Columns of a launch or of a flight over time, by their names (docs/quantities.md), in SI;
-    NaN where a row has no value. The arrays are the library's memory, read-only and not copied."""
+    NaN where a row has no value. The arrays are the library's memory, read-only and not copied.
+
+    >>> result.history["t"].shape == result["tip.y"].shape
+    True
+    """
 
     def __init__(self, handle: Handle, pointer: int) -> None:
         self._handle, self._pointer = handle, pointer
 
     @functools.cached_property
     def columns(self) -> Columns:
-        """Name, unit and description of each column, in order."""
+        """Name, unit and description of each column, in order.
+
+        >>> result.history.columns["rocket.s"].description
+        "travel: rear adaptor's station in the tube"
+        """
         count = ctypes.c_size_t()
         columns = library.ld_history_columns(self._pointer, ctypes.byref(count))
         found = (Column(text_of(c.name), text_of(c.unit), text_of(c.description))
@@ -107,17 +132,29 @@ class History(Mapping[str, Array]):
 
     @property
     def rows(self) -> int:
-        """Number of rows, one for each instant of `t`."""
+        """Number of rows, one for each instant of `t`.
+
+        >>> result.history.rows == len(result["t"])
+        True
+        """
         return int(library.ld_history_rows(self._pointer))
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A data frame over t [s], a copy; units in `attrs["units"]`."""
+        """A data frame over t [s], a copy; units in `attrs["units"]`.
+
+        >>> result.history.to_pandas().index.name
+        't'
+        """
         frame = pandas_here().DataFrame(dict(self))
         frame.attrs["units"] = {name: column.unit for name, column in self.columns.items()}
         return frame.set_index("t")
 
     def to_xarray(self) -> xarray.Dataset:
-        """A data set over t [s], not copied, whose variables have `units` and `long_name`."""
+        """A data set over t [s], not copied, whose variables have `units` and `long_name`.
+
+        >>> result.history.to_xarray()["tip.y"].units
+        'm'
+        """
         told = {name: {"units": column.unit, "long_name": column.description}
                 for name, column in self.columns.items()}
         values = {name: ("t", self[name], told[name]) for name in self if name != "t"}
@@ -128,6 +165,10 @@ class History(Mapping[str, Array]):
 
         Columns of one unit share axes, others get axes of their own, one below the other.
         Returns the axes, or a list of them where units differ.
+
+        `names`: columns to draw; `ax`: axes to draw on; `style`: options of their plot().
+
+        >>> axes = result.history.plot("tip.y", "tip.z", over="rocket.s", color="black")
         """
         from .plotting import plot_columns
         return plot_columns(self, names, over, ax, style)
@@ -135,17 +176,29 @@ class History(Mapping[str, Array]):
     def __repr__(self) -> str:
         return f"<launchdyn.History: {len(self)} columns, {self.rows} rows>"
 
+    def _repr_html_(self) -> str:
+        return _table(f"{len(self)} columns, {self.rows} rows", ("column", "unit", ""),
+                      ((c.name, c.unit, c.description) for c in self.columns.values()))
+
 
 class Summary(Mapping[str, float]):
     """Numbers of a run by their names (docs/quantities.md), in SI: "rocket.1.exit_speed",
-    "energy.residual_relative", "mode.1.frequency"; NaN where there is none."""
+    "energy.residual_relative", "mode.1.frequency"; NaN where there is none.
+
+    >>> round(result.summary["rocket.1.exit_speed"], 1)
+    37.8
+    """
 
     def __init__(self, handle: Handle) -> None:
         self._handle = handle
 
     @functools.cached_property
     def quantities(self) -> dict[str, Quantity]:
-        """Name, unit, description and value of each number."""
+        """Name, unit, description and value of each number.
+
+        >>> result.summary.quantities["rocket.1.exit_speed"].description
+        's_dot at t_rear, relative to the tube'
+        """
         return {quantity.name: quantity for quantity in quantities_at(self._handle.pointer)}
 
     def __getitem__(self, name: str) -> float:
@@ -164,6 +217,11 @@ class Summary(Mapping[str, float]):
     def __repr__(self) -> str:
         return f"<launchdyn.Summary: {len(self)} numbers>"
 
+    def _repr_html_(self) -> str:
+        return _table(f"{len(self)} numbers in SI", ("number", "value", "unit", ""),
+                      ((q.name, f"{q.value:.6g}", q.unit, q.description)
+                       for q in self.quantities.values()))
+
 
 def quantities_at(pointer: int) -> list[Quantity]:
     """The numbers of the library's summary."""
@@ -180,7 +238,11 @@ def quantities_at(pointer: int) -> list[Quantity]:
 class Result:
     """What came of a run. `result["tip.y"]` is a column, `result.summary["rocket.1.exit_speed"]`
     a number, `result.flight(1)` a rocket's flight; of a flight alone the columns are those of the
-    flight. A context manager; it need not be closed."""
+    flight. A context manager; it need not be closed.
+
+    >>> result
+    <launchdyn.Result: rockets 1, rows 1599>
+    """
 
     def __init__(self, model: Handle, summary: Handle, history: Handle) -> None:
         self._model, self._handle, self._rows = model, summary, history
@@ -190,17 +252,29 @@ class Result:
 
     @property
     def rockets(self) -> int:
-        """Number of rockets fired."""
+        """Number of rockets fired.
+
+        >>> result.rockets
+        1
+        """
         return int(library.ld_summary_rockets(self._handle.pointer))
 
     @property
     def stopped(self) -> Optional[str]:
-        """Why the run ended early; None: it did not."""
+        """Why the run ended early; None: it did not.
+
+        >>> result.stopped is None
+        True
+        """
         return text_of(library.ld_summary_stopped(self._handle.pointer)) or None
 
     @property
     def notes(self) -> list[str]:
-        """Remarks that the user should see."""
+        """Remarks that the user should see.
+
+        >>> result.notes
+        []
+        """
         found: list[str] = []
         while note := library.ld_summary_note(self._handle.pointer, len(found)):
             found.append(text_of(note))
@@ -208,7 +282,11 @@ class Result:
 
     @property
     def flights(self) -> dict[int, History]:
-        """Columns of the flights, by the number of the rocket in the order of firing."""
+        """Columns of the flights, by the number of the rocket in the order of firing.
+
+        >>> list(flown.flights)
+        [1]
+        """
         found = {}
         for rocket in range(1, self.rockets + 1):
             pointer = library.ld_history_flight(self._rows.pointer, rocket)
@@ -217,7 +295,11 @@ class Result:
         return found
 
     def flight(self, rocket: int = 1) -> History:
-        """Columns of the flight of a rocket, from 1. Raises KeyError where it has not flown."""
+        """Columns of the flight of a rocket, from 1. Raises KeyError where it has not flown.
+
+        >>> flown.flight(1)["altitude"].max() > 100
+        True
+        """
         flights = self.flights
         if rocket not in flights:
             raise KeyError(f"rocket {rocket} has not flown")
@@ -237,20 +319,36 @@ class Result:
         return self.history[name]
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The columns as a data frame over t [s], in SI; see History.to_pandas()."""
+        """The columns as a data frame over t [s], in SI; see History.to_pandas().
+
+        >>> result.to_pandas().attrs["units"]["tip.y"]
+        'm'
+        """
         return self.history.to_pandas()
 
     def to_xarray(self) -> xarray.Dataset:
-        """The columns as a data set over t [s], in SI; see History.to_xarray()."""
+        """The columns as a data set over t [s], in SI; see History.to_xarray().
+
+        >>> dict(result.to_xarray().sizes) == {"t": result.history.rows}
+        True
+        """
         return self.history.to_xarray()
 
     def plot(self, *names: str, over: str = "t", ax: Any = None, **style: Any) -> Any:
-        """Draws columns; see History.plot()."""
+        """Draws columns; see History.plot().
+
+        `names`: columns to draw; `ax`: axes to draw on; `style`: options of their plot().
+
+        >>> axes = result.plot("tip.y", over="rocket.s")
+        """
         self._check_columns(over, *names)
         return self.history.plot(*names, over=over, ax=ax, **style)
 
     def close(self) -> None:
-        """Gives it up; arrays that are still used keep their memory."""
+        """Gives it up; arrays that are still used keep their memory.
+
+        >>> scenario.run().close()
+        """
         del self._model, self._handle, self._rows, self.summary, self.history
 
     def __enter__(self) -> Result:

@@ -40,6 +40,9 @@ class Scenario:
     `scenario["rocket.mass"]` is a value in SI (numbers, vectors and tables as floats and arrays,
     words as texts), `scenario["rocket.mass"] = "61 kg"` sets it; a bare number is in SI. Setting
     changes nothing of what was made of it before. A context manager; it need not be closed.
+
+    >>> scenario["rocket.mass"], scenario["base.kind"]
+    (60.0, 'fixed')
     """
 
     def __init__(self, model: Handle) -> None:
@@ -54,7 +57,13 @@ class Scenario:
 
     @classmethod
     def read(cls, path: PathLike, sets: Sets = None) -> Scenario:
-        """Reads a file; `sets` override it: {"rocket.mass": "61 kg"}."""
+        """Reads a file; `sets` override it: {"rocket.mass": "61 kg"}.
+
+        `path`: of the file. None in `sets` takes a key or block away.
+
+        >>> ld.Scenario.read(examples / "fixed.yaml", {"rocket.mass": "61 kg"})["rocket.mass"]
+        61.0
+        """
         items = texts(set_texts(sets))
         return cls(read_model(library.ld_scenario_read, coded_path(path), items, len(items)))
 
@@ -62,7 +71,13 @@ class Scenario:
     def from_text(cls, text: str, sets: Sets = None, name: str = "text",
                   folder: PathLike = ".") -> Scenario:
         """Reads a text; `name` stands for the file in messages, `folder` is where files that it
-        names are searched."""
+        names are searched.
+
+        `sets`: values by path that override it; None takes a key or block away.
+
+        >>> ld.Scenario.from_text("include: fixed.yaml", name="mine", folder=examples)["base.kind"]
+        'fixed'
+        """
         items, given = texts(set_texts(sets)), coded(text)
         return cls(read_model(library.ld_scenario_read_text, given, len(given), coded(name),
                               coded_path(folder), items, len(items)))
@@ -71,24 +86,48 @@ class Scenario:
     def from_dict(cls, values: Mapping[str, Any], sets: Sets = None, name: str = "dict",
                   folder: PathLike = ".") -> Scenario:
         """Of nested mappings as the file's blocks: {"rocket": {"mass": "61 kg", ...}, ...};
-        "launchdyn": 1 may be left out."""
+        "launchdyn": 1 may be left out.
+
+        `sets`: values by path that override it; None takes a key or block away. `name`
+        stands for the file in messages.
+
+        >>> values = {"include": "fixed.yaml", "rocket": {"mass": 61}}
+        >>> ld.Scenario.from_dict(values, folder=examples)["rocket.mass"]
+        61.0
+        """
         return cls.from_text(dict_text(values), sets, name, folder)
 
     @classmethod
     def defaults(cls, sets: Sets) -> Scenario:
-        """Of values alone, by their paths; all else has the language's defaults."""
+        """Of values alone, by their paths; all else has the language's defaults.
+
+        `sets`: the values by their paths.
+
+        >>> try:
+        ...     ld.Scenario.defaults({"rocket.mass": 61})
+        ... except ld.InputError as wrong:
+        ...     len(wrong.messages) > 1
+        True
+        """
         items = texts(set_texts(sets))
         return cls(read_model(library.ld_model_new, items, len(items)))
 
     @property
     def handle(self) -> Handle:
-        """The library's object."""
+        """The library's object.
+
+        >>> scenario.handle is not None
+        True
+        """
         if self._model is None:
             raise ValueError("the scenario is closed")
         return self._model
 
     def close(self) -> None:
-        """Gives the model up; results that need it keep it."""
+        """Gives the model up; results that need it keep it.
+
+        >>> scenario.derive().close()
+        """
         self._model = self._simulation = None
 
     def __enter__(self) -> Scenario:
@@ -124,12 +163,26 @@ class Scenario:
 
     def set(self, sets: Sets) -> None:
         """Sets several keys at once, for those that fit only together. Raises InputError with all
-        that is wrong; then the scenario is as before."""
+        that is wrong; then the scenario is as before.
+
+        `sets`: values by path; None takes a key or block away.
+
+        >>> copy = scenario.derive()
+        >>> copy.set({"rocket.mass": 61, "rocket.center": (1.1, 0, 0)})
+        >>> copy["rocket.mass"]
+        61.0
+        """
         self._model = self._derived(sets)
         self._simulation = None
 
     def derive(self, sets: Sets = None) -> Scenario:
-        """Another scenario with some values set; this one stays as it is."""
+        """Another scenario with some values set; this one stays as it is.
+
+        `sets`: values by path; None takes a key or block away.
+
+        >>> scenario.derive({"rocket.mass": (61500, "g")})["rocket.mass"], scenario["rocket.mass"]
+        (61.5, 60.0)
+        """
         return Scenario(self._derived(sets))
 
     def _derived(self, sets: Sets) -> Handle:
@@ -155,43 +208,79 @@ class Scenario:
         return np.ctypeslib.as_array(table, shape).copy() if table else np.empty((0, 0))
 
     def text(self, path: str) -> str:
-        """A value as a text that can be set again: "61 kg"; "" where it is not given."""
+        """A value as a text that can be set again: "61 kg"; "" where it is not given.
+
+        `path`: of the key, "rocket.mass".
+
+        >>> scenario.text("rocket.mass")
+        '60 kg'
+        """
         error, text = ld_error(), ctypes.create_string_buffer(4096)
         check_name(library.ld_model_text(self.handle.pointer, coded(path), text, len(text),
                                          ctypes.byref(error)), error)
         return text_of(text.value)
 
     def key(self, path: str) -> Optional[Key]:
-        """Unit, range and description of a key."""
+        """Unit, range and description of a key.
+
+        `path`: of the key, "rocket.mass"; None: there is none.
+
+        >>> scenario.key("rocket.mass").description
+        'at ignition'
+        """
         return key_of(path)
 
     # ---- as a whole
 
     @property
     def title(self) -> str:
-        """What the scenario calls itself."""
+        """What the scenario calls itself.
+
+        >>> scenario.title
+        'Reference launcher on a fixed base'
+        """
         return str(self["title"])
 
     @property
     def has_launcher(self) -> bool:
-        """Whether it is more than a flight alone."""
+        """Whether it is more than a flight alone.
+
+        >>> scenario.has_launcher
+        True
+        """
         return bool(library.ld_model_has_launcher(self.handle.pointer))
 
     @property
     def has_vehicle(self) -> bool:
-        """Whether its base is a vehicle."""
+        """Whether its base is a vehicle.
+
+        >>> scenario.has_vehicle, vehicle.has_vehicle
+        (False, True)
+        """
         return bool(library.ld_model_has_vehicle(self.handle.pointer))
 
     def to_yaml(self) -> str:
-        """Every key with its value in SI, as a scenario that can be read again."""
+        """Every key with its value in SI, as a scenario that can be read again.
+
+        >>> ld.Scenario.from_text(scenario.to_yaml())["rocket.mass"]
+        60.0
+        """
         return printed(lambda to: library.ld_model_print(self.handle.pointer, to))
 
     def describe(self) -> str:
-        """What carries, guides, holds and drives the rocket, in words."""
+        """What carries, guides, holds and drives the rocket, in words.
+
+        >>> print(scenario.describe().splitlines()[0])
+        # base: fixed; launcher 19.8 deg up
+        """
         return printed(lambda to: library.ld_model_describe(self.handle.pointer, to))
 
     def notes(self) -> list[Message]:
-        """What is allowed but implausible."""
+        """What is allowed but implausible.
+
+        >>> scenario.notes()
+        []
+        """
         messages = ld_messages()
         source = library.ld_model_source(self.handle.pointer)
         check_messages(library.ld_scenario_notes(source, 0, 0, ctypes.byref(messages)), messages)
@@ -199,16 +288,32 @@ class Scenario:
 
     @property
     def points(self) -> int:
-        """Number of points of its sweep; 1 without."""
+        """Number of points of its sweep; 1 without.
+
+        >>> scenario.points
+        1
+        """
         return int(library.ld_scenario_points(self.handle.pointer))
 
     def point(self, number: int) -> Scenario:
-        """The scenario at a point of its sweep, from 1."""
+        """The scenario at a point of its sweep, from 1.
+
+        `number`: of the point.
+
+        >>> swept.point(2)["rocket.mass"]
+        61.0
+        """
         source = library.ld_model_source(self.handle.pointer)
         return Scenario(read_model(library.ld_scenario_read_source, source, number))
 
     def point_name(self, number: int) -> str:
-        """Keys and values of a point of its sweep, from 1."""
+        """Keys and values of a point of its sweep, from 1.
+
+        `number`: of the point.
+
+        >>> swept.point_name(2)
+        'rocket.mass 61 kg'
+        """
         text = ctypes.create_string_buffer(1024)
         library.ld_scenario_point_name(self.handle.pointer, number, text, len(text))
         return text_of(text.value)
@@ -224,19 +329,37 @@ class Scenario:
     # ---- run
 
     def simulation(self) -> Simulation:
-        """What is computed from it once: modes, coefficients, tables. Runs may share it."""
+        """What is computed from it once: modes, coefficients, tables. Runs may share it.
+
+        >>> scenario.simulation() is scenario.simulation()
+        True
+        """
         if self._simulation is None:
             self._simulation = Simulation(self.handle)
         return self._simulation
 
     def run(self, out: Optional[PathLike] = None, csv: bool = False,
             progress: Progress = None, base: Optional[BaseFrame] = None) -> Result:
-        """Runs from start to end; see Simulation.run()."""
+        """Runs from start to end; see Simulation.run().
+
+        `out`: folder for results, with `csv` as CSV too; `progress` gets the share done;
+        `base`: where an external base is at the start.
+
+        >>> round(scenario.run().summary["rocket.1.exit_speed"], 1)
+        37.8
+        """
         return self.simulation().run(out, csv, progress, base)
 
     def begin(self, base: Optional[BaseFrame] = None, out: Optional[PathLike] = None,
               csv: bool = False) -> Run:
-        """Begins a run that is stepped; see Simulation.begin()."""
+        """Begins a run that is stepped; see Simulation.begin().
+
+        `base`: where an external base is; `out`: folder for results, with `csv` as CSV too.
+
+        >>> with scenario.begin() as run:
+        ...     run.time
+        0.0
+        """
         return self.simulation().begin(base, out, csv)
 
     # ---- examined without runs
@@ -245,11 +368,19 @@ class Scenario:
                  friction: bool = False) -> Response:
         """Its linear response (docs/response.md), of a vehicle at any speed from `slowest` to
         `fastest` [m/s], NaN: its own; `friction`: of the hinges, linearised for the motion on the
-        road."""
+        road.
+
+        >>> vehicle.response(slowest=5, fastest=10).speed
+        8.333333333333334
+        """
         return Response(self.handle, slowest, fastest, friction)
 
     def loop(self, hinge: str) -> Loop:
-        """The loop that holds a hinge of its vehicle, "azimuth" or "elevation", opened."""
+        """The loop that holds a hinge of its vehicle, "azimuth" or "elevation", opened.
+
+        >>> vehicle.loop("azimuth").hinge
+        'azimuth'
+        """
         return Loop(self.handle, hinge)
 
     def response_view(self, *what: str, input: Optional[str] = None, start: float = math.nan,
@@ -258,7 +389,13 @@ class Scenario:
                       exit: bool = False, friction: bool = False, draws: int = 0) -> View:
         """Its linear response as `launchdyn response` shows it: of columns `what` on the road, or
         to an `input`, from `start` to `end` [Hz], over `speeds` (slowest, fastest, step) [m/s];
-        of a hinge's `loop`; with the `density` of a random input from a CSV file; of the `exit`."""
+        of a hinge's `loop`; with the `density` of a random input from a CSV file; of the `exit`.
+
+        `friction` of the hinges is linearised; `draws`: launches of the exit.
+
+        >>> print(str(scenario.response_view("tip.y", input="base.y")).splitlines()[2])
+        Greatest amplitude                                            at [Hz]  phase [deg]
+        """
         slowest, fastest, step = speeds or (math.nan,) * 3
         return View("response", self.handle, ld_response_wish(
             texts(what), len(what), _coded(input), start, end, slowest, fastest, step,
@@ -267,20 +404,33 @@ class Scenario:
     def road_view(self, start: float = math.nan, end: float = math.nan,
                   step: float = math.nan) -> View:
         """Its vehicle's road as `launchdyn road` shows it, from x = `start` to `end` [m], `step`
-        apart; NaN: the usual."""
+        apart; NaN: the usual.
+
+        >>> list(vehicle.road_view(start=0, end=20, step=0.1).tables)
+        ['road-spectrum', 'road']
+        """
         return View("road", self.handle, ld_stretch(start, end, step))
 
     def wind_view(self, height: float = 100, top: float = 2000, length: float = math.nan,
                   step: float = math.nan, rocket: int = 1) -> View:
         """Its wind as `launchdyn wind` shows it: the profile up to `top`, gusts and turbulence of
-        a rocket at a `height` above ground, along a line of a `length`, `step` apart [m]."""
+        a rocket at a `height` above ground, along a line of a `length`, `step` apart [m].
+
+        >>> list(windy.wind_view(height=50, top=100, length=500, step=1).tables)
+        ['wind-profile']
+        """
         return View("wind", self.handle, ld_wind_section(height, top, length, step, rocket))
 
     def export_fmu(self, file: PathLike, part: str = "all", version: int = 3,
                    outputs: Optional[str] = None, parameters: Optional[str] = None) -> None:
         """Writes a Functional Mock-up Unit (docs/fmi.md) of the launch: `part` "all", "vehicle"
         or "launcher", `version` of FMI 2 or 3; `outputs` and `parameters` that it has, such as
-        "tip.*,summary.*" and "rocket.*", None: all."""
+        "tip.*,summary.*" and "rocket.*", None: all.
+
+        `file`: the FMU.
+
+        >>> scenario.export_fmu(folder / "launch.fmu", outputs="tip.*", parameters="rocket.*")
+        """
         error = ld_error()
         parts = ("all", "vehicle", "launcher")
         if part not in parts:

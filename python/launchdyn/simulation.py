@@ -30,7 +30,11 @@ EARLY = (Status.LAUNCH, Status.NUMERIC)
 @dataclass(frozen=True)
 class BaseFrame:
     """Where the undeformed tube is on its base, and how that moves: its rear end, and axes of
-    which x goes along it."""
+    which x goes along it.
+
+    >>> ld.BaseFrame((0, 1.5, 0), quaternion=(1, 0, 0, 0)).rate
+    (0, 0, 0)
+    """
 
     position: Sequence[float]  #: [m] of the rear end in I
     quaternion: Sequence[float] = (1, 0, 0, 0)  #: tube axes against I, scalar part first
@@ -43,14 +47,22 @@ class BaseFrame:
 
 
 class Wrench(NamedTuple):
-    """What the launching tube does to its base, in I."""
+    """What the launching tube does to its base, in I.
+
+    >>> ld.Wrench(force=np.zeros(3), moment=np.zeros(3))._fields
+    ('force', 'moment')
+    """
 
     force: Array  #: [N]
     moment: Array  #: [N m] about the undeformed tube's rear end
 
 
 class EventKind(enum.IntEnum):
-    """What happens in a run, in the order in which it can come."""
+    """What happens in a run, in the order in which it can come.
+
+    >>> ld.EventKind["EXIT"] > ld.EventKind.RELEASE
+    True
+    """
 
     NONE = 0
     IGNITION = 1  #: of the rocket
@@ -68,7 +80,13 @@ class EventKind(enum.IntEnum):
 
 
 class Event(NamedTuple):
-    """An event of a run."""
+    """An event of a run.
+
+    >>> with scenario.begin() as run:
+    ...     event = run.advance_to_event()
+    >>> event.kind.name, event.t, event.rocket
+    ('IGNITION', 0.0, 1)
+    """
 
     kind: EventKind
     t: float  #: [s] on the run's clock
@@ -77,7 +95,11 @@ class Event(NamedTuple):
 
 
 class Mode(NamedTuple):
-    """A natural frequency and what moves most in it."""
+    """A natural frequency and what moves most in it.
+
+    >>> scenario.simulation().tube_modes()[0]._fields
+    ('frequency', 'damping', 'real', 'shape')
+    """
 
     frequency: float  #: [Hz]
     damping: float  #: [-] ratio
@@ -86,7 +108,12 @@ class Mode(NamedTuple):
 
 
 class Pole(NamedTuple):
-    """An eigenvalue of the linearised system with its dampers; one of each conjugate pair."""
+    """An eigenvalue of the linearised system with its dampers; one of each conjugate pair.
+
+    >>> modes, poles = scenario.simulation().system_modes()
+    >>> all(pole.real < 0 for pole in poles)
+    True
+    """
 
     real: float  #: [1/s]
     imaginary: float  #: [rad/s] >= 0
@@ -139,7 +166,11 @@ class _Recording:
 
 class Simulation:
     """What is computed once from a scenario: modes, inertia coefficients, tables. It does not
-    change: several threads may run it at a time."""
+    change: several threads may run it at a time.
+
+    >>> scenario.simulation()
+    <launchdyn.Simulation: 159 columns>
+    """
 
     def __init__(self, model: Handle) -> None:
         error, pointer = ld_error(), ctypes.c_void_p()
@@ -150,12 +181,20 @@ class Simulation:
 
     @property
     def columns(self) -> Columns:
-        """Columns of the launch's history, in order."""
+        """Columns of the launch's history, in order.
+
+        >>> scenario.simulation().columns["tip.y"].unit
+        'm'
+        """
         return _columns(library.ld_simulation_columns, self.handle)
 
     def describe(self) -> str:
         """The bodies of a multibody base as a tree, its loops and degrees of freedom; of other
-        bases nothing."""
+        bases nothing.
+
+        >>> scenario.simulation().describe()
+        ''
+        """
         return printed(lambda to: library.ld_simulation_describe(self.handle.pointer, to))
 
     def run(self, out: Optional[PathLike] = None, csv: bool = False,
@@ -167,6 +206,9 @@ class Simulation:
         a notebook; `base` is where the base is at the start (base.kind: external).
         Raises LaunchError, NumericError with what it had until then as `result`; InputError.
         Ctrl-C raises KeyboardInterrupt; results in the folder are those up to there.
+
+        >>> scenario.simulation().run(out=folder / "run", csv=True).rockets
+        1
         """
         recording, error = _Recording(self.model, out, csv), ld_error()
         with Interrupt() as interrupt, followed(progress) as share_told:
@@ -179,27 +221,56 @@ class Simulation:
 
     def begin(self, base: Optional[BaseFrame] = None, out: Optional[PathLike] = None,
               csv: bool = False) -> Run:
-        """Begins a run that is stepped."""
+        """Begins a run that is stepped.
+
+        `base`: where an external base is; `out`: folder for results, with `csv` as CSV too.
+
+        >>> with scenario.simulation().begin() as run:
+        ...     run.finished
+        False
+        """
         return Run(self, base, out, csv)
 
     def load(self, saved: bytes) -> Run:
-        """Continues where a run that was saved stood (Run.save()), with the same bits."""
+        """Continues where a run that was saved stood (Run.save()), with the same bits.
+
+        >>> with scenario.begin() as run:
+        ...     saved = run.save()
+        >>> with scenario.simulation().load(saved) as again:
+        ...     again.finished
+        False
+        """
         if not isinstance(saved, bytes):
             raise TypeError(f"expected the bytes of Run.save(), found {type(saved).__name__}")
         return Run(self, saved=saved)
 
     def begin_vehicle(self) -> VehicleRun:
-        """Begins a run of the scenario's vehicle alone, stepped under a given wrench."""
+        """Begins a run of the scenario's vehicle alone, stepped under a given wrench.
+
+        >>> vehicle.simulation().begin_vehicle().time
+        -3.0
+        """
         return VehicleRun(self)
 
     def tube_modes(self, most: int = 64) -> list[Mode]:
-        """Natural frequencies [Hz] of tube and tail on their supports, base fixed, ascending."""
+        """Natural frequencies [Hz] of tube and tail on their supports, base fixed, ascending.
+
+        >>> [round(mode.frequency) for mode in scenario.simulation().tube_modes(most=2)]
+        [67, 67]
+        """
         modes = (ld_mode * most)()
         count = library.ld_simulation_tube_modes(self.handle.pointer, modes, most)
         return [Mode(m.frequency, m.damping, m.real, text_of(m.shape)) for m in modes[:count]]
 
     def system_modes(self, most: int = 256) -> tuple[list[Mode], list[Pole]]:
-        """Modes [Hz] and eigenvalues [1/s] of the whole about its static equilibrium."""
+        """Modes [Hz] and eigenvalues [1/s] of the whole about its static equilibrium.
+
+        `most`: how many of each.
+
+        >>> modes, poles = scenario.simulation().system_modes()
+        >>> len(poles) > 0
+        True
+        """
         error, modes, poles = ld_error(), (ld_mode * most)(), (ld_pole * most)()
         count, pole_count = ctypes.c_int(), ctypes.c_int()
         check(library.ld_simulation_system_modes(
@@ -246,7 +317,14 @@ class _Asked:
 class Run(Held):
     """A run that is stepped: taken forward to a time or to the next event, read, given its
     ignition or its base, saved, ended. `run["tip.y"]` is a column at the present time.
-    A context manager that gives up what was not ended. One thread at a time: others wait."""
+    A context manager that gives up what was not ended. One thread at a time: others wait.
+
+    >>> with scenario.begin() as run:
+    ...     run.advance(0.05)
+    ...     travel = run["rocket.s"]
+    >>> travel > 0
+    True
+    """
 
     _over = "the run has ended"
 
@@ -287,7 +365,13 @@ class Run(Held):
 
     def advance(self, t: float = math.inf) -> None:
         """Continues to time t [s], or to the end of the launch where that comes before. Ctrl-C
-        stops it in between, and it can continue from there."""
+        stops it in between, and it can continue from there.
+
+        >>> with scenario.begin() as run:
+        ...     run.advance(t=0.02)
+        ...     print(run.time)
+        0.02
+        """
         error, to, status = ld_error(), -math.inf, int(Status.OK)
         with self._lock:
             self._event = ld_event()
@@ -300,7 +384,12 @@ class Run(Held):
 
     def advance_to_event(self, t: float = math.inf) -> Optional[Event]:
         """Continues to the next event, but not beyond time t [s]; None: there was none up to t, or
-        the end has been reported. Ctrl-C as in advance(): the next call reports the event."""
+        the end has been reported. Ctrl-C as in advance(): the next call reports the event.
+
+        >>> with scenario.begin() as run:
+        ...     print(run.advance_to_event(t=0.1).kind.name)
+        IGNITION
+        """
         error, to, status = ld_error(), -math.inf, int(Status.OK)
         with self._lock:
             if self._told_end:
@@ -317,19 +406,34 @@ class Run(Held):
 
     def events(self, t: float = math.inf) -> Iterator[Event]:
         """Continues from event to event up to time t [s], or to the end of the launch: within the
-        loop the run stands at the event."""
+        loop the run stands at the event.
+
+        >>> with scenario.begin() as run:
+        ...     [event.kind.name for event in run.events(t=0.1)][:2]
+        ['IGNITION', 'RELEASE']
+        """
         while event := self.advance_to_event(t):
             yield event
 
     @property
     def time(self) -> float:
-        """Present time [s] on the run's clock."""
+        """Present time [s] on the run's clock.
+
+        >>> with scenario.begin() as run:
+        ...     run.time
+        0.0
+        """
         with self._lock:
             return float(library.ld_run_time(self._pointer))
 
     @property
     def finished(self) -> bool:
-        """Whether the launch is over: what is left are the flights, by end()."""
+        """Whether the launch is over: what is left are the flights, by end().
+
+        >>> with scenario.begin() as run:
+        ...     run.finished
+        False
+        """
         with self._lock:
             return bool(library.ld_run_is_finished(self._pointer))
 
@@ -348,7 +452,12 @@ class Run(Held):
         return value.value
 
     def row(self) -> Array:
-        """All columns at the present time, in SI, in the order of Simulation.columns."""
+        """All columns at the present time, in SI, in the order of Simulation.columns.
+
+        >>> with scenario.begin() as run:
+        ...     len(run.row()) == len(run.simulation.columns)
+        True
+        """
         error, values = ld_error(), np.empty(len(self.simulation.columns))
         with self._lock:
             status = library.ld_run_row(
@@ -359,13 +468,23 @@ class Run(Held):
 
     def quantities(self) -> dict[str, Quantity]:
         """Numbers of the summary so far, in SI, by their names; energies, warnings, flights are
-        there at the end alone."""
+        there at the end alone.
+
+        >>> with scenario.begin() as run:
+        ...     "rocket.1.exit_speed" in run.quantities()
+        True
+        """
         with self._lock:
             found = quantities_at(library.ld_run_summary(self._pointer))
         return {quantity.name: quantity for quantity in found}
 
     def wrench(self) -> Wrench:
-        """Force [N] and moment [N m] of the tube on its base at the present time, in I."""
+        """Force [N] and moment [N m] of the tube on its base at the present time, in I.
+
+        >>> with external.begin(ld.BaseFrame((0, 0, 0))) as run:
+        ...     run.wrench().force.shape
+        (3,)
+        """
         error, wrench = ld_error(), ld_base_wrench()
         with self._lock:
             status = library.ld_run_base_wrench(self._pointer, ctypes.byref(wrench),
@@ -376,14 +495,23 @@ class Run(Held):
     # ---- inputs
 
     def ignite(self, t: float) -> None:
-        """Ignites the rocket that stands in the tube at time t [s]; inf: not until set again."""
+        """Ignites the rocket that stands in the tube at time t [s]; inf: not until set again.
+
+        >>> with scenario.derive({"run.lead_in": "0.05 s"}).begin() as run:
+        ...     run.ignite(t=0.02)
+        """
         error = ld_error()
         with self._lock:
             status = library.ld_run_ignite(self._pointer, t, ctypes.byref(error))
         self._check(status, error)
 
     def set_base(self, base: BaseFrame) -> None:
-        """Sets where the base is at the present time and how it moves (base.kind: external)."""
+        """Sets where the base is at the present time and how it moves (base.kind: external).
+
+        >>> with external.begin(ld.BaseFrame((0, 0, 0))) as run:
+        ...     run.advance(1e-3)
+        ...     run.set_base(ld.BaseFrame((0, 1e-6, 0), velocity=(0, 1e-3, 0)))
+        """
         error, frame = ld_error(), base._struct()
         with self._lock:
             status = library.ld_run_set_base(self._pointer, ctypes.byref(frame),
@@ -393,7 +521,15 @@ class Run(Held):
     # ---- saved, ended
 
     def save(self) -> bytes:
-        """All that the rest depends on, for Simulation.load() here or in another process."""
+        """All that the rest depends on, for Simulation.load() here or in another process.
+
+        >>> with scenario.begin() as run:
+        ...     run.advance(0.05)
+        ...     saved = run.save()
+        >>> with scenario.simulation().load(saved) as again:
+        ...     print(again.time)
+        0.05
+        """
         error, size = ld_error(), ctypes.c_size_t()
         room = 0  # it says how much it requires
         with self._lock:
@@ -410,7 +546,13 @@ class Run(Held):
     def end(self, progress: Progress = None) -> Result:
         """Ends it: flies the rockets that left their tubes where the scenario requires it. A launch
         that is not over ends where it is, and Result.stopped says so. `progress` gets the share
-        of each flight, and Ctrl-C stops it, as in Simulation.run()."""
+        of each flight, and Ctrl-C stops it, as in Simulation.run().
+
+        >>> with scenario.begin() as run:
+        ...     run.advance()
+        ...     run.end().rockets
+        1
+        """
         error = ld_error()
         with self._lock, Interrupt() as interrupt, followed(progress) as share_told:
             pointer = self._pointer
@@ -433,7 +575,11 @@ class Run(Held):
 
 class VehicleRun(Held):
     """A run of a scenario's vehicle alone, stepped under a given wrench. A context
-    manager; it need not be closed. One thread at a time: others wait."""
+    manager; it need not be closed. One thread at a time: others wait.
+
+    >>> with vehicle.simulation().begin_vehicle() as run:
+    ...     run.advance(run.time + 1e-3)
+    """
 
     _over = "the run has ended"
 
@@ -451,34 +597,60 @@ class VehicleRun(Held):
         check(status, error, self.simulation.model.pointer)
 
     def advance(self, t: float) -> None:
-        """Continues to time t [s]; it has no end of its own."""
+        """Continues to time t [s]; it has no end of its own.
+
+        >>> with vehicle.simulation().begin_vehicle() as run:
+        ...     run.advance(t=run.time + 0.01)
+        """
         self._call(library.ld_vehicle_run_advance, t)
 
     @property
     def time(self) -> float:
-        """Present time [s] on the clock of the launch."""
+        """Present time [s] on the clock of the launch.
+
+        >>> vehicle.simulation().begin_vehicle().time
+        -3.0
+        """
         with self._lock:
             return float(library.ld_vehicle_run_time(self._pointer))
 
     def frame(self) -> BaseFrame:
-        """Where the vehicle holds the undeformed tube, in SI, for Run.set_base()."""
+        """Where the vehicle holds the undeformed tube, in SI, for Run.set_base().
+
+        >>> len(vehicle.simulation().begin_vehicle().frame().quaternion)
+        4
+        """
         frame = ld_base_frame()
         self._call(library.ld_vehicle_run_frame, ctypes.byref(frame))
         return BaseFrame(tuple(frame.position), tuple(frame.quaternion), tuple(frame.velocity),
                          tuple(frame.rate))
 
     def set_wrench(self, wrench: Wrench) -> None:
-        """Sets force [N] and moment [N m] of the tube on the vehicle at the present time."""
+        """Sets force [N] and moment [N m] of the tube on the vehicle at the present time.
+
+        `wrench`: about the undeformed tube's rear end, in I.
+
+        >>> with vehicle.simulation().begin_vehicle() as run:
+        ...     run.set_wrench(ld.Wrench(np.array([-100.0, 0, 0]), np.zeros(3)))
+        """
         told = ld_base_wrench(tuple(wrench.force), tuple(wrench.moment))
         self._call(library.ld_vehicle_run_set_wrench, ctypes.byref(told))
 
     @property
     def columns(self) -> Columns:
-        """Columns of a vehicle alone."""
+        """Columns of a vehicle alone.
+
+        >>> vehicle.simulation().begin_vehicle().columns["chassis.y"].unit
+        'm'
+        """
         return _columns(library.ld_vehicle_run_columns, self.simulation.handle)
 
     def row(self) -> Array:
-        """All columns at the present time, in SI, in the order of `columns`."""
+        """All columns at the present time, in SI, in the order of `columns`.
+
+        >>> vehicle.simulation().begin_vehicle().row().ndim
+        1
+        """
         values = np.empty(len(self.columns))
         self._call(library.ld_vehicle_run_row,
                    values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)))

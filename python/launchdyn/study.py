@@ -39,7 +39,11 @@ _INDICES = ("total", "first", "morris")
 
 
 class Counts(NamedTuple):
-    """How far a study is."""
+    """How far a study is.
+
+    >>> study.run_shard(folder / "shards", 1, 4).now
+    4
+    """
 
     samples: int  #: that the scenario asks for, or that its stopping rule found enough
     done: int  #: that are kept, failed ones included
@@ -48,7 +52,12 @@ class Counts(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """A number with its interval of 95 %, NaN where none can be stated."""
+    """A number with its interval of 95 %, NaN where none can be stated.
+
+    >>> mean = data.statistics("range").mean
+    >>> mean.low < mean.value < mean.high
+    True
+    """
 
     value: float
     low: float
@@ -57,7 +66,11 @@ class Estimate(NamedTuple):
 
 @dataclass(frozen=True)
 class Statistics:
-    """Statistics of a column, in SI (docs/study.md)."""
+    """Statistics of a column, in SI (docs/study.md).
+
+    >>> data.statistics("range").count
+    8
+    """
 
     count: int  #: values
     groups: int  #: independent ones
@@ -71,7 +84,11 @@ class Statistics:
 
 @dataclass(frozen=True)
 class Footprint:
-    """For range safety: the region in which a share of landings lies (docs/study.md)."""
+    """For range safety: the region in which a share of landings lies (docs/study.md).
+
+    >>> landings.footprint(0.95).stated
+    False
+    """
 
     share: float  #: of further landings that lie within, on average
     needed: float  #: independent landings that it requires
@@ -85,7 +102,11 @@ class Footprint:
 @dataclass(frozen=True)
 class Influence:
     """What a factor does to a result (docs/study.md); what the plan of the samples does not give is
-    NaN. Effects in SI."""
+    NaN. Effects in SI.
+
+    >>> data.influences("range")[0].factor
+    'rocket.mass_error'
+    """
 
     factor: str  #: its path
     first: Estimate  #: first-order index; of other plans than saltelli a regression's
@@ -101,7 +122,11 @@ class Influence:
 @dataclass(frozen=True)
 class Cell:
     """A value of a swept key, or a pair of values of two, pooled over the other swept keys
-    (docs/study.md)."""
+    (docs/study.md).
+
+    >>> data.over("range", "rocket.mass")[0].values
+    ('60 kg',)
+    """
 
     values: tuple[str, ...]  #: of the keys, as in the scenario
     numbers: tuple[float, ...]  #: in the keys' units; NaN where they are no numbers of one kind
@@ -113,7 +138,11 @@ class Cell:
 
 
 class Cells(list[Cell]):
-    """Cells in the order of the sweep, the first key varying most slowly."""
+    """Cells in the order of the sweep, the first key varying most slowly.
+
+    >>> data.over("range", "rocket.mass").keys
+    ('rocket.mass',)
+    """
 
     def __init__(self, cells: Iterable[Cell], keys: tuple[str, ...], units: tuple[str, ...],
                  result: str) -> None:
@@ -123,7 +152,11 @@ class Cells(list[Cell]):
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each cell: the keys' values, numbers where they are, then `value`, `low`,
-        `high` in SI, `count`, `groups`, `points`, `reference`."""
+        `high` in SI, `count`, `groups`, `points`, `reference`.
+
+        >>> list(data.over("range", "rocket.mass").to_pandas())[:2]
+        ['rocket.mass [kg]', 'value']
+        """
         pandas = pandas_here()
         rows = [[*(number if unit or number == number else text for text, number, unit
                    in zip(c.values, c.numbers, self.units)), *c.estimate, c.count, c.groups,
@@ -135,7 +168,11 @@ class Cells(list[Cell]):
 
 @dataclass(frozen=True)
 class StudyColumn:
-    """A number of each rocket, or of each sample."""
+    """A number of each rocket, or of each sample.
+
+    >>> data.columns["rocket.mass_error"].factor
+    True
+    """
 
     name: str  #: of a result, or path of a factor
     unit: str  #: SI; "" without
@@ -146,7 +183,11 @@ class StudyColumn:
 
 @dataclass(frozen=True)
 class Point:
-    """A point of the sweep; a study without one has a single point."""
+    """A point of the sweep; a study without one has a single point.
+
+    >>> data.points[1].number, data.points[1].values
+    (2, {'rocket.mass': '61 kg'})
+    """
 
     number: int  #: from 1
     values: dict[str, str]  #: of each swept key, as in the scenario
@@ -157,7 +198,12 @@ class Point:
 
 class Study:
     """A scenario with all points of its sweep, whose samples are run into a folder. A context
-    manager; it need not be closed."""
+    manager; it need not be closed.
+
+    >>> with ld.Study.of(swept) as asked:
+    ...     asked.run(folder / "mass").points[0].done
+    8
+    """
 
     def __init__(self, handle: Handle) -> None:
         """Of a study's handle: use read(), from_text(), from_dict() or of()."""
@@ -165,14 +211,28 @@ class Study:
 
     @classmethod
     def read(cls, path: PathLike, sets: Sets = None) -> Study:
-        """Reads a file; `sets` override it."""
+        """Reads a file; `sets` override it.
+
+        `path`: of the file. None in `sets` takes a key or block away.
+
+        >>> salvo = ld.Study.read(examples / "salvo.yaml", {"scatter.samples": 2})
+        >>> salvo.sample(2)["scatter.samples"]
+        '2'
+        """
         items = texts(set_texts(sets))
         return cls(_read_study(library.ld_study_read, coded_path(path), items, len(items)))
 
     @classmethod
     def from_text(cls, text: str, sets: Sets = None, name: str = "text",
                   folder: PathLike = ".") -> Study:
-        """Reads a text, as Scenario.from_text()."""
+        """Reads a text, as Scenario.from_text().
+
+        `sets`: values by path that override it; None takes a key or block away. `name`
+        stands for the file in messages, `folder` is where files that it names are searched.
+
+        >>> ld.Study.from_text(swept.to_yaml()).sample(1).has_launcher
+        False
+        """
         items, given = texts(set_texts(sets)), coded(text)
         return cls(_read_study(library.ld_study_read_text, given, len(given), coded(name),
                                coded_path(folder), items, len(items)))
@@ -180,12 +240,25 @@ class Study:
     @classmethod
     def from_dict(cls, values: Mapping[str, Any], sets: Sets = None, name: str = "dict",
                   folder: PathLike = ".") -> Study:
-        """Of nested mappings, as Scenario.from_dict()."""
+        """Of nested mappings, as Scenario.from_dict().
+
+        `sets`: values by path that override it; None takes a key or block away. `name`
+        stands for the file in messages.
+
+        >>> scatter = {"samples": 2, "factors": {"rocket.mass_error": {"normal": "0.1 kg"}}}
+        >>> values = {"include": "flight.yaml", "scatter": scatter}
+        >>> ld.Study.from_dict(values, folder=examples).sample(1).title
+        'Reference rocket, flight alone'
+        """
         return cls.from_text(dict_text(values), sets, name, folder)
 
     @classmethod
     def of(cls, scenario: Scenario) -> Study:
-        """Of a scenario as it is now, with its scatter and sweep."""
+        """Of a scenario as it is now, with its scatter and sweep.
+
+        >>> ld.Study.of(swept.derive({"scatter.samples": 3})).run(folder / "three").points[0].asked
+        3
+        """
         source = library.ld_model_source(scenario.handle.pointer)
         return cls(_read_study(library.ld_study_read_source, source))
 
@@ -199,6 +272,9 @@ class Study:
         terminal or a notebook. Ctrl-C, or whatever
         `progress` raises, stops the study, which keeps what it has: run again, it continues. The
         results have the same bits for any number of threads and any interruption.
+
+        >>> study.run(folder / "study", threads=2).points[0].done
+        8
         """
         self._run(_Work(self.handle, folder, threads, join=join), progress)
         return StudyData(folder)
@@ -206,7 +282,13 @@ class Study:
     def run_shard(self, folder: PathLike, shard: int, shards: int, threads: int = 1,
                   progress: Progress = None) -> Counts:
         """Runs the samples shard, shard + shards, ... alone, for merge_shards(): several programs,
-        on one machine or on many, share a folder so. Else as run()."""
+        on one machine or on many, share a folder so. Else as run().
+
+        `threads` run samples side by side; `progress` gets the Counts.
+
+        >>> study.run_shard(folder / "two", shard=2, shards=2).done
+        8
+        """
         return self._run(_Work(self.handle, folder, threads, shard, shards), progress)
 
     def map(self, executor: Executors, folder: PathLike, progress: Progress = None,
@@ -219,6 +301,13 @@ class Study:
         A range whose worker is killed runs again. A ProcessPoolExecutor takes no more work
         then: give a function that makes one. Where the executor runs, the package must be there,
         but no file and no folder.
+
+        `progress` gets the Counts.
+
+        >>> from concurrent.futures import ThreadPoolExecutor
+        >>> with ThreadPoolExecutor(2) as executor:
+        ...     study.map(executor, folder / "mapped").points[0].failed
+        0
         """
         done, last, went = -1, time.monotonic(), False
         with Interrupt() as interrupt, followed(progress) as told, \
@@ -255,7 +344,13 @@ class Study:
         return _counts(work.counts)
 
     def sample(self, number: int) -> Scenario:
-        """A sample, from 1, as a scenario to look at and to run, with what was sampled for it."""
+        """A sample, from 1, as a scenario to look at and to run, with what was sampled for it.
+
+        `number`: of the sample.
+
+        >>> study.sample(3)["rocket.mass_error"] != study.sample(5)["rocket.mass_error"]
+        True
+        """
         error, pointer = ld_error(), ctypes.c_void_p()
         check(library.ld_study_sample(self.handle.pointer, number, ctypes.byref(pointer),
                                       ctypes.byref(error)), error)
@@ -266,14 +361,27 @@ class Study:
 
     @property
     def handle(self) -> Handle:
-        """The library's object."""
+        """The library's object.
+
+        >>> study.handle is not None
+        True
+        """
         if self._handle is None:
             raise ValueError("the study is closed")
         return self._handle
 
     def close(self) -> None:
-        """Gives it up."""
+        """Gives it up.
+
+        >>> ld.Study.of(swept).close()
+        """
         self._handle = None
+
+    def __repr__(self) -> str:
+        return f"<launchdyn.Study {self.sample(1).title!r}>" if self._handle else "<closed Study>"
+
+    def _repr_html_(self) -> str:
+        return self.sample(1)._repr_html_() if self._handle else escape(repr(self))
 
     def __enter__(self) -> Study:
         return self
@@ -336,7 +444,11 @@ class _Work:
 
 class StudyData(Held):
     """A snapshot of what a study's folder holds, which may still be running. A context manager; it
-    need not be closed. One thread at a time: others wait."""
+    need not be closed. One thread at a time: others wait.
+
+    >>> data["range"].shape
+    (8,)
+    """
 
     _over = "the study's data are closed"
 
@@ -352,7 +464,11 @@ class StudyData(Held):
 
     @property
     def columns(self) -> dict[str, StudyColumn]:
-        """Results, then factors, by their names."""
+        """Results, then factors, by their names.
+
+        >>> data.columns["range"].unit
+        'm'
+        """
         found: dict[str, StudyColumn] = {}
         while column := library.ld_study_data_column(self._pointer, len(found)):
             c = column[0]
@@ -362,17 +478,29 @@ class StudyData(Held):
 
     @property
     def results(self) -> list[str]:
-        """Names of the results."""
+        """Names of the results.
+
+        >>> "range" in data.results
+        True
+        """
         return [name for name, column in self.columns.items() if not column.factor]
 
     @property
     def factors(self) -> list[str]:
-        """Paths of the factors that are drawn."""
+        """Paths of the factors that are drawn.
+
+        >>> data.factors
+        ['rocket.mass_error']
+        """
         return [name for name, column in self.columns.items() if column.factor]
 
     @property
     def swept(self) -> list[str]:
-        """Paths of the swept keys."""
+        """Paths of the swept keys.
+
+        >>> data.swept
+        ['rocket.mass']
+        """
         found: list[str] = []
         while path := library.ld_study_data_swept(self._pointer, len(found)):
             found.append(text_of(path))
@@ -380,7 +508,11 @@ class StudyData(Held):
 
     @property
     def points(self) -> list[Point]:
-        """Points of the sweep."""
+        """Points of the sweep.
+
+        >>> len(data.points)
+        2
+        """
         swept = self.swept
         found: list[Point] = []
         while point := library.ld_study_data_point(self._pointer, len(found) + 1):
@@ -393,7 +525,13 @@ class StudyData(Held):
 
     def values(self, *names: str, point: int = 1) -> dict[str, npt.NDArray[Any]]:
         """Columns by name, in SI, of the samples of a point that went well, with "sample" and
-        "rocket" (both from 1); rockets that lack one of the values are left out. Copies."""
+        "rocket" (both from 1); rockets that lack one of the values are left out. Copies.
+
+        `names`: results or factors.
+
+        >>> sorted(data.values("range", point=2))
+        ['range', 'rocket', 'sample']
+        """
         error = ld_error()
         found = ctypes.POINTER(ld_study_values)()
         with self._lock:
@@ -414,7 +552,13 @@ class StudyData(Held):
         return self.values(name)[name]
 
     def statistics(self, name: str, point: int = 1) -> Statistics:
-        """Statistics of a column at a point, in SI."""
+        """Statistics of a column at a point, in SI.
+
+        `name`: of a result or factor.
+
+        >>> data.statistics("range", point=2).deviation.value > 0
+        True
+        """
         error = ld_error()
         found = ctypes.POINTER(ld_study_statistics)()
         tell_renamed(name)
@@ -429,7 +573,13 @@ class StudyData(Held):
 
     def sensitivity(self, result: str, factor: str, point: int = 1) -> Estimate:
         """What share of the variance of a result a factor explains alone; NaN where the result
-        does not scatter, or with too few samples."""
+        does not scatter, or with too few samples.
+
+        `point`: of the sweep, from 1.
+
+        >>> data.sensitivity("range", "rocket.mass_error").value <= 1
+        True
+        """
         error, share = ld_error(), ld_estimate()
         tell_renamed(result)
         with self._lock:
@@ -440,7 +590,11 @@ class StudyData(Held):
 
     def influences(self, result: str, point: int = 1) -> list[Influence]:
         """What each factor does to a result, the greatest first: Sobol indices of the plan
-        saltelli, elementary effects of the plan morris, else first-order indices."""
+        saltelli, elementary effects of the plan morris, else first-order indices.
+
+        >>> [influence.factor for influence in data.influences("range", point=2)]
+        ['rocket.mass_error']
+        """
         error, count = ld_error(), ctypes.c_size_t()
         found = ctypes.POINTER(ld_study_influence)()
         tell_renamed(result)
@@ -453,7 +607,11 @@ class StudyData(Held):
                               f.sigma, f.count, f.groups) for f in found[:count.value]]
 
     def footprint(self, share: float, point: int = 1) -> Footprint:
-        """The footprint of a point's landings, of a share of 0.95, 0.99 or 0.999."""
+        """The footprint of a point's landings, of a share of 0.95, 0.99 or 0.999.
+
+        >>> landings.footprint(0.95).share
+        0.95
+        """
         error, found = ld_error(), ctypes.POINTER(ld_study_footprint)()
         with self._lock:
             check(library.ld_study_data_footprint(self._pointer, point, share, ctypes.byref(found),
@@ -466,7 +624,13 @@ class StudyData(Held):
              statistic: str = "mean") -> Cells:
         """A result over the values of one swept key or two (without: the first), pooled over the
         others. `statistic` as of `launchdyn study plot`: "mean", "deviation", "quantile:0.95",
-        "share:>20 mrad/s", "footprint" (of no result); `against` a point: paired differences."""
+        "share:>20 mrad/s", "footprint" (of no result); `against` a point: paired differences.
+
+        `keys`: the swept keys.
+
+        >>> [round(cell.estimate.value, 1) for cell in data.over("range", "rocket.mass")]
+        [8642.2, 8566.5]
+        """
         error, count = ld_error(), ctypes.c_size_t()
         found = ctypes.POINTER(ld_study_cell)()
         asked = ld_study_over(result=coded(result) if result else None,
@@ -487,7 +651,11 @@ class StudyData(Held):
     def to_pandas(self, *names: str) -> pandas.DataFrame:
         """Columns (all, without names) of all points as a data frame, in SI: swept keys as texts,
         sample, rocket, then the columns, NaN where a rocket lacks a value; units in
-        `attrs["units"]`."""
+        `attrs["units"]`.
+
+        >>> list(data.to_pandas("range"))
+        ['rocket.mass', 'sample', 'rocket', 'range']
+        """
         pandas, wanted = pandas_here(), names or tuple(self.columns)
         frames = []
         for point in self.points:
@@ -505,7 +673,11 @@ class StudyData(Held):
         """Columns (all, without names) as a data set over `point`, `sample`, `rocket`, each from 1,
         in SI, with `units`; of what is one for all rockets over point and sample; NaN where there
         is not a value. The k-th samples of all points have the same draws; `number` is the one that
-        each has in the study. Swept keys are coordinates of the points, as texts."""
+        each has in the study. Swept keys are coordinates of the points, as texts.
+
+        >>> data.to_xarray("range")["range"].dims
+        ('point', 'sample', 'rocket')
+        """
         columns, points = self.columns, self.points
         found = [(at, name, self.values(name, point=point.number))
                  for at, point in enumerate(points) for name in names or columns]
@@ -537,7 +709,11 @@ class StudyData(Held):
         the `measured` launches of a CSV file; how far points of the sweep are from one, `against`;
         or a row for each value of one swept key or two, `over`, pooled over the others, of means
         and deviations or of one `statistic`. `sensitivity` may name what the plan of the samples
-        gives: "total", "first", "morris"."""
+        gives: "total", "first", "morris".
+
+        >>> "range" in data.show("range")
+        True
+        """
         if isinstance(sensitivity, str) and sensitivity not in _INDICES:
             raise ValueError(f"sensitivity: found {sensitivity!r}, expected one of {_INDICES}")
         index = 1 + _INDICES.index(sensitivity) if isinstance(sensitivity, str) else 0
@@ -558,7 +734,12 @@ class StudyData(Held):
                footprint: Optional[PathLike] = None) -> None:
         """Writes all rockets with their factors and results, in full precision, as a CSV file, as
         an HDF5 file, or as both; the footprints of their landings as a `footprint` file that ends
-        in .csv, .kml or .geojson."""
+        in .csv, .kml or .geojson.
+
+        `csv`, `hdf5`, `footprint`: files.
+
+        >>> data.export(csv=folder / "all.csv")
+        """
         if not csv and not hdf5 and not footprint:
             raise ValueError("no file given: csv, hdf5, footprint")
         error = ld_error()
@@ -578,7 +759,13 @@ class StudyData(Held):
         """Draws, by matplotlib, how results scatter: histograms, a colour for each point of the
         sweep; `over` a factor as points. `over` one swept key or two: over()'s estimates with
         their intervals, a curve for each value of the second key. `sensitivity`: influences() as
-        bars. Returns the axes, or a list of them."""
+        bars. Returns the axes, or a list of them.
+
+        `names`: results; `against` and `statistic` as in over(); `ax`: axes to draw on;
+        `style`: options of their plot().
+
+        >>> axes = data.plot("range", over="rocket.mass_error")
+        """
         from .plotting import plot_influences, plot_over, plot_study
         if sensitivity:
             return plot_influences(self, names, ax, style)
@@ -588,7 +775,10 @@ class StudyData(Held):
         return plot_study(self, names, keys[0] if keys else None, ax, style)
 
     def write_report(self, file: PathLike) -> None:
-        """Writes one HTML file that shows the study in any browser, offline."""
+        """Writes one HTML file that shows the study in any browser, offline.
+
+        >>> data.write_report(folder / "study.html")
+        """
         error, report = ld_error(), ld_report()
         check(library.ld_report_write_studies(texts([str(self.folder)]), 1, coded_path(file),
                                               ctypes.byref(report), ctypes.byref(error)), error)
@@ -618,7 +808,13 @@ def _estimate(e: ld_estimate) -> Estimate:
 def merge_shards(folder: PathLike) -> StudyData:
     """Joins what the shards of a study have kept in a folder, and opens it. Harmless however
     often, and while shards run, but not while StudyData of the folder is open: FileError.
-    Study.run() then runs what is still missing."""
+    Study.run() then runs what is still missing.
+
+    >>> sorted(folder.glob("shards/*")) != []
+    True
+    >>> ld.merge_shards(folder / "shards").points[0].done
+    4
+    """
     error, status = ld_error(), []
     printed(lambda to: status.append(library.ld_study_merge(coded_path(folder), to,
                                                             ctypes.byref(error))))
@@ -628,7 +824,11 @@ def merge_shards(folder: PathLike) -> StudyData:
 
 def write_report(folder: PathLike, file: Optional[PathLike] = None) -> Path:
     """Writes one HTML file that shows the run in a folder in any browser, offline: report.html
-    there, or `file`."""
+    there, or `file`.
+
+    >>> ld.write_report(folder / "student", folder / "student.html").name
+    'student.html'
+    """
     error, report = ld_error(), ld_report()
     check(library.ld_report_write(coded_path(folder), coded_path(file) if file else None,
                                   ctypes.byref(report), ctypes.byref(error)), error)

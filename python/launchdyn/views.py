@@ -26,7 +26,11 @@ PathLike = Union[str, "os.PathLike[str]"]
 class View:
     """A road, a wind or a linear response to look at: str() is the table of the command,
     `tables` are its numbers, draw() makes a picture of it by gnuplot. Made by road_view(),
-    wind_view(), response_view() of a scenario."""
+    wind_view(), response_view() of a scenario.
+
+    >>> vehicle.road_view()
+    <launchdyn.View of a road>
+    """
 
     def __init__(self, kind: str, model: Handle, wish: Any) -> None:
         error, pointer = ld_error(), ctypes.c_void_p()
@@ -45,19 +49,29 @@ class View:
 
     @property
     def tables(self) -> dict[str, dict[str, Array]]:
-        """The tables that write() writes, by their names, "road": columns by theirs, in SI."""
+        """The tables that write() writes, by their names, "road": columns by theirs, in SI.
+
+        >>> vehicle.road_view(end=20).tables["road"]["left"].ndim
+        1
+        """
         with tempfile.TemporaryDirectory() as folder:
             self.write(folder)
             return {path.stem: _columns(path) for path in sorted(Path(folder).glob("*.csv"))}
 
     def write(self, folder: PathLike) -> None:
-        """Writes its tables as CSV into a folder."""
+        """Writes its tables as CSV into a folder.
+
+        >>> vehicle.road_view(end=20).write(folder / "road")
+        """
         error = ld_error()
         check(self._function("write")(self._handle.pointer, coded_path(folder),
                                       ctypes.byref(error)), error)
 
     def draw(self, file: PathLike) -> None:
-        """Draws it by gnuplot: file.svg, file.pdf or file.png."""
+        """Draws it by gnuplot: file.svg, file.pdf or file.png.
+
+        >>> vehicle.road_view(end=20).draw(folder / "road.svg")
+        """
         error = ld_error()
         check(self._function("draw")(self._handle.pointer, coded_path(file),
                                      ctypes.byref(error)), error)
@@ -81,7 +95,11 @@ def _columns(path: Path) -> dict[str, Array]:
 
 
 def figures() -> dict[str, str]:
-    """The figures that draw() knows, with a line on each."""
+    """The figures that draw() knows, with a line on each.
+
+    >>> ld.figures()["tip"]
+    'Tip of the tube against the undeformed tube'
+    """
     found: dict[str, str] = {}
     while figure := library.ld_figure_at(len(found)):
         found[text_of(figure[0].name)] = text_of(figure[0].description)
@@ -99,6 +117,9 @@ def draw(file: PathLike, *folders: PathLike, figures: Sequence[str] = (),
     `figures` are names of figures(), "all": all that there are columns for; none: a choice.
     `start` and `end` are times from ignition [s]; `style` is "screen", "dark" or "paper"; `width`
     is that of the picture [m], 0: as the style has it.
+
+    >>> ld.draw(folder / "tip.svg", folder / "student", figures=["tip"], end=0.1, width=0.12)
+    >>> ld.draw(folder / "launch.glb", folder / "student", magnify=50, slower=100)
     """
     error, note = ld_error(), ctypes.create_string_buffer(ld_error.text.size)
     wanted = [os.fsdecode(folder) for folder in folders]
