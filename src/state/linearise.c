@@ -273,12 +273,14 @@ static int rates_beside(const launch_state *self, const launching_system *alone,
 // Whether differences to both sides are not those of a straight line.
 static bool is_bent(int n, const double *middle, const difference *of)
 {
-    double bend = 0, rise = 0;
+    double bend = 0, rise = 0; // squares
     for (int i = 0; i < n; i++) {
-        bend = hypot(bend, of->plus[i] - 2 * middle[i] + of->minus[i]);
-        rise = hypot(rise, of->plus[i] - of->minus[i]);
+        double bent = of->plus[i] - 2 * middle[i] + of->minus[i],
+               risen = of->plus[i] - of->minus[i];
+        bend += bent * bent;
+        rise += risen * risen;
     }
-    return bend > 0.03 * rise;
+    return bend > 0.03 * 0.03 * rise;
 }
 
 // The same, by a step so small that nothing which is pressed in by little lets go within it, where
