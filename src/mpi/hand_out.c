@@ -1,19 +1,29 @@
-// A follower sends the record of the sample that it has run (an empty one at first) and gets the
-// number of its next sample; 0: no more, it is dismissed. So each message has one answer, which
-// comes before the message where the study stops while a sample runs.
+// A follower asks for so many samples as it may have at once and, where those are short, for as
+// many ahead; the record of each that it has run asks for another one. So each message has one
+// answer, a number; 0: no more. One message more comes to each follower: that it may go, or, before
+// its answers, that the study stops.
 #include "mpi/hand_out.h"
 
 #include <mpi.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "cli/command.h"
+#include "flight/flight_lanes.h"
 #include "studies/run/ledger.h"
 #include "studies/run/worker.h"
 
-enum { TAG_RECORD = 1, TAG_NUMBER = 2, DISMISSED = 0 };
+enum { TAG_RECORD = 1, TAG_NUMBER = 2, TAG_GO = 3, NO_MORE = 0 };
+
+// Messages with which a follower begins.
+static int first_messages(const ld_study *study)
+{
+    int at_once = worker_samples_at_once(study);
+    return at_once > 1 ? 2 * at_once : 1;
+}
 
 // Waiting without keeping a core busy: the longer it has lasted, the longer the next pause.
 typedef struct patience {
@@ -30,7 +40,13 @@ static void pause_a_little(const patience *self)
 
 // ---- the first process
 
-typedef enum follower_state { RUNNING, ASKING, SENT_HOME, GONE } follower_state;
+// What the first process knows of another one.
+typedef struct follower_state {
+    int coming;  // messages with which it begins
+    int asks;    // messages without an answer
+    int running; // samples whose records have not come
+    bool told, gone;
+} follower_state;
 
 typedef struct leader {
     study_ledger *ledger;
@@ -39,12 +55,6 @@ typedef struct leader {
     study_record *record;  // the message that came last
     size_t record_size;
 } leader;
-
-static void answer_follower(leader *self, int follower, int64_t number, follower_state next)
-{
-    MPI_Send(&number, 1, MPI_INT64_T, follower, TAG_NUMBER, MPI_COMM_WORLD);
-    self->state[follower] = next;
-}
 
 // Takes in and keeps what has come; returns how many messages there were.
 static int receive_records(leader *self)
@@ -56,34 +66,39 @@ static int receive_records(leader *self)
         MPI_Iprobe(MPI_ANY_SOURCE, TAG_RECORD, MPI_COMM_WORLD, &there, &about);
         if (!there)
             return received;
-        int from = about.MPI_SOURCE;
-        MPI_Recv(self->record, (int)self->record_size, MPI_BYTE, from, TAG_RECORD, MPI_COMM_WORLD,
-                 MPI_STATUS_IGNORE);
-        self->state[from] = self->state[from] == SENT_HOME ? GONE : ASKING;
-        if (self->record->number > 0 || self->record->outcome)
+        follower_state *from = &self->state[about.MPI_SOURCE];
+        MPI_Recv(self->record, (int)self->record_size, MPI_BYTE, about.MPI_SOURCE, TAG_RECORD,
+                 MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        bool ran = self->record->number > 0;
+        from->asks++;
+        from->running -= ran;
+        from->coming -= !ran;
+        if (ran)
             ledger_keep(self->ledger, self->record);
         received++;
     }
 }
 
-// Answers those who ask; where the study stops, everybody.
-static void answer_all(leader *self)
+static void answer_follower(leader *self, int follower)
 {
-    for (int i = 1; i < self->processes; i++) {
-        if (self->state[i] == ASKING) {
-            int64_t number = ledger_next(self->ledger);
-            if (number != SAMPLE_WAIT)
-                answer_follower(self, i, number, number == DISMISSED ? GONE : RUNNING);
-        } else if (self->state[i] == RUNNING && !ledger_continues(self->ledger)) {
-            answer_follower(self, i, DISMISSED, SENT_HOME);
-        }
+    follower_state *one = &self->state[follower];
+    int64_t number;
+    while (one->asks > 0 && (number = ledger_next(self->ledger)) != SAMPLE_WAIT) {
+        MPI_Send(&number, 1, MPI_INT64_T, follower, TAG_NUMBER, MPI_COMM_WORLD);
+        one->asks--;
+        one->running += number != NO_MORE;
+    }
+    one->gone = one->coming + one->asks + one->running == 0;
+    if (!one->told && (one->gone || !ledger_continues(self->ledger))) {
+        MPI_Send(NULL, 0, MPI_BYTE, follower, TAG_GO, MPI_COMM_WORLD);
+        one->told = true;
     }
 }
 
 static bool all_are_gone(const leader *self)
 {
     for (int i = 1; i < self->processes; i++)
-        if (self->state[i] != GONE)
+        if (!self->state[i].gone)
             return false;
     return true;
 }
@@ -96,7 +111,9 @@ static void serve_followers(leader *self)
             waiting.since = MPI_Wtime();
         else
             pause_a_little(&waiting);
-        answer_all(self);
+        for (int i = 1; i < self->processes; i++)
+            if (!self->state[i].gone)
+                answer_follower(self, i);
     }
 }
 
@@ -113,6 +130,8 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
         fputs("launchdyn-mpi: no memory for the records of samples\n", stderr);
         MPI_Abort(MPI_COMM_WORLD, EXIT_SYSTEM);
     }
+    for (int i = 1; i < all.processes; i++)
+        all.state[i].coming = first_messages(study);
     const store_place place = {.folder = folder, .journal = STORE_ROLLBACK};
     ledger_open(&ledger, study, &place, options, counts, error);
     const sample_source source = ledger_source(&ledger);
@@ -129,59 +148,128 @@ ld_status mpi_study_lead(const ld_study *study, const char *folder, const ld_stu
 
 // ---- every other process
 
-static bool is_answered(void)
-{
-    int there;
-    MPI_Iprobe(0, TAG_NUMBER, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
-    return there;
-}
-
 typedef struct follower {
     bool (*go_on)(void *);
     void *self;
-    double looked; // [s] when for a message
-    bool sent_home;
+    double looked, asked; // [s] when for a message, for numbers: each look may yield the processor
+    bool goes;            // was told that it may
+    int unanswered, running;
+    int64_t number[2 * FLIGHT_MOST_LANES]; // of samples to be run
+    int numbers;
+    study_record *handed_back; // what is said of a sample that it does not run
 } follower;
 
-// Whether the sample that runs is still requested.
+static bool is_there(int tag)
+{
+    int there;
+    MPI_Iprobe(0, tag, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+    return there;
+}
+
+static void send_record(follower *self, const study_record *record)
+{
+    MPI_Send(record, (int)record_size(&record->shape), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
+    self->unanswered++;
+}
+
+static void take_answers(follower *self)
+{
+    while (is_there(TAG_NUMBER)) {
+        int64_t number;
+        MPI_Recv(&number, 1, MPI_INT64_T, 0, TAG_NUMBER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        self->unanswered--;
+        if (number != NO_MORE)
+            self->number[self->numbers++] = number;
+    }
+}
+
+static void leave(follower *self)
+{
+    MPI_Recv(NULL, 0, MPI_BYTE, 0, TAG_GO, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    self->goes = true;
+}
+
+// Whether the samples that run are still requested.
 static bool is_wanted(void *argument)
 {
     const double often = 0.02; // [s]
     follower *self = argument;
     double now = MPI_Wtime();
     if (now - self->looked > often) {
-        self->sent_home = is_answered();
+        if (!self->goes && is_there(TAG_GO))
+            leave(self);
         self->looked = now;
     }
-    return !self->sent_home && self->go_on(self->self);
+    return !self->goes && self->go_on(self->self);
 }
 
-// Sends a record and waits for the number that answers it.
-static int64_t send_record(const study_record *record)
+// The oldest number that has come. Waits for one only where no sample runs, on whose record the
+// first process may wait.
+static int64_t next_number(void *argument)
 {
-    int64_t number;
-    MPI_Send(record, (int)record_size(&record->shape), MPI_BYTE, 0, TAG_RECORD, MPI_COMM_WORLD);
+    const double often = 0.2e-3; // [s]
+    follower *self = argument;
     patience waiting = {MPI_Wtime()};
-    while (!is_answered())
+    if (self->numbers == 0 && waiting.since - self->asked > often) {
+        take_answers(self);
+        self->asked = waiting.since;
+    }
+    while (self->numbers == 0 && self->running == 0 && self->unanswered > 0 && is_wanted(self)) {
         pause_a_little(&waiting);
-    MPI_Recv(&number, 1, MPI_INT64_T, 0, TAG_NUMBER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        take_answers(self);
+    }
+    if (!is_wanted(self))
+        return NO_MORE;
+    if (self->numbers == 0)
+        return self->unanswered > 0 ? SAMPLE_WAIT : NO_MORE;
+    int64_t number = self->number[0];
+    self->numbers--;
+    memmove(self->number, self->number + 1, (size_t)self->numbers * sizeof number);
+    self->running++;
     return number;
+}
+
+static void keep_record(void *argument, const study_record *record)
+{
+    follower *self = argument;
+    self->running--;
+    send_record(self, record);
+}
+
+static void stop(void *argument, ld_status status, const ld_error *error)
+{
+    study_record *record = ((follower *)argument)->handed_back;
+    record->outcome = status;
+    snprintf(record->reason, sizeof record->reason, "%s", error->text);
+}
+
+// What it was given and does not run goes back.
+static void hand_back(follower *self)
+{
+    patience waiting = {MPI_Wtime()};
+    for (;;) {
+        take_answers(self);
+        if (self->numbers > 0) {
+            self->handed_back->number = self->number[--self->numbers];
+            send_record(self, self->handed_back);
+        } else if (self->unanswered > 0) {
+            pause_a_little(&waiting);
+        } else {
+            return;
+        }
+    }
 }
 
 void mpi_study_follow(const ld_study *study, bool (*go_on)(void *), void *self)
 {
-    follower of = {.go_on = go_on, .self = self};
-    study_worker worker;
-    ld_error error;
-    ld_status status = worker_create(&worker, study, &error);
-    if (status) {
-        study_record failed = {.outcome = status};
-        snprintf(failed.reason, sizeof failed.reason, "%s", error.text);
-        while (send_record(&failed) != DISMISSED)
-            ;
-        return;
-    }
-    for (int64_t number; (number = send_record(worker.record)) != DISMISSED;)
-        worker_run(&worker, number, is_wanted, &of);
-    worker_free(&worker);
+    static const study_record none;
+    study_record back = {.outcome = LD_ERR_INTERRUPTED};
+    follower of = {.go_on = go_on, .self = self, .handed_back = &back};
+    const sample_source source = {&of, study, next_number, keep_record, is_wanted, stop};
+    for (int i = first_messages(study); i > 0; i--)
+        send_record(&of, &none);
+    worker_run_all(&source);
+    hand_back(&of);
+    if (!of.goes)
+        leave(&of);
 }

@@ -231,10 +231,15 @@ static bool has_launches(const ld_study *study)
     return i < study->points;
 }
 
+int worker_samples_at_once(const ld_study *study)
+{
+    return has_launches(study) ? 1 : FLIGHT_MOST_LANES;
+}
+
 void worker_run_all(const sample_source *from)
 {
     ld_error error;
-    bool flights = !has_launches(from->study);
+    bool flights = worker_samples_at_once(from->study) > 1;
     ld_status status = flights ? fly_all(from, &error) : run_one_by_one(from, &error);
     if (status)
         from->stop(from->self, status, &error);

@@ -24,6 +24,9 @@ void worker_free(study_worker *self);
 // false, and LD_ERR_MEMORY are not the sample's: such a record is not to be kept.
 void worker_run(study_worker *self, int64_t number, bool (*go_on)(void *), void *argument);
 
+// The most samples that worker_run_all() has at once, on any processor.
+int worker_samples_at_once(const ld_study *study);
+
 // Runs samples that the source hands out until there are no more: the work of one thread.
 void worker_run_all(const sample_source *from);
 
