@@ -79,6 +79,8 @@ class Replay {
     }).observe(this.canvas);
     this.tools.onColours(() => this.paint());
     addEventListener("beforeprint", () => this.photograph(), { signal: this.tools.life() });
+    this.paper = matchMedia("print"); // of a page that is loaded for paper nothing is printed before
+    this.paper.addEventListener("change", () => this.fit(), { signal: this.tools.life() });
     this.stage.paint(this.tools.colour);
     this.time = this.opening();
     this.fit();
@@ -309,6 +311,7 @@ class Replay {
     Object.assign(this.gauge, { width: width * scale, height: height * scale });
     this.nameInstants(this.ticks.clientWidth);
     this.show(this.time, true);
+    if (this.paper.matches) this.photograph();
   }
   paint() {
     this.stage.paint(this.tools.colour);

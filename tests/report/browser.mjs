@@ -173,6 +173,7 @@ async function checkLaunch(browser) {
   await picture(page, "launch.png");
   await checkKeys(page, run);
   await checkReplay(page, run);
+  await checkLoadedForPaper(browser, run);
   await leave(page);
   await checkWithoutGeometry(browser, run);
 }
@@ -513,6 +514,26 @@ async function checkControls(page, run) {
   const after = await wide();
   check("the third of five is drawn as wide as its row of paper, and as before after it", printed[2] === 680 && printed[1] < 500 && after[2] === after[1],
     `${printed}, ${after}`);
+}
+
+// A page that is loaded for paper, before which nothing is printed, shows the launcher, too.
+async function checkLoadedForPaper(browser, run) {
+  console.log("loaded for paper");
+  const page = await open(browser, run.file, { media: "print" });
+  await page.$eval(".photo", (photo) => photo.decode().catch(() => undefined));
+  const { width, tube, paper } = await page.$eval(".photo", (photo) => {
+    const { naturalWidth: width, naturalHeight: height } = photo, canvas = document.createElement("canvas"), ctx = canvas.getContext("2d");
+    if (width === 0) return { width, tube: 0, paper: 0 };
+    Object.assign(canvas, { width, height });
+    ctx.drawImage(photo, 0, 0);
+    const { data } = ctx.getImageData(0, 0, width, height);
+    let tube = 0;
+    for (let i = 0; i < data.length; i += 4) tube += data[i + 3] > 200 && data[i + 2] > data[i] + 50 && data[i + 2] > data[i + 1] + 20;
+    return { width, tube, paper: photo.getClientRects().length };
+  });
+  check("the launcher is on it", paper > 0 && width > 500 && tube > 500, `${tube} points of the tube, ${width} pixels wide`);
+  await picture(page, "paper.png");
+  await leave(page);
 }
 
 // The page is already there, as wide as its plots have been viewed.

@@ -87,7 +87,7 @@ function withReplay(wanted) {
 
 // Opens a report and waits until it says that it is ready. `before` is code that runs in the page
 // before any of its own; without `replay` there is no WebGL.
-export async function open(browser, file, { width = 1200, dark = false, replay = true, before } = {}) {
+export async function open(browser, file, { width = 1200, dark = false, replay = true, before, media } = {}) {
   const context = await browser.newContext(
     { viewport: { width, height: 900 }, colorScheme: dark ? "dark" : "light" });
   const page = await context.newPage();
@@ -105,6 +105,7 @@ export async function open(browser, file, { width = 1200, dark = false, replay =
   });
   if (!replay || !LD_SCREENSHOTS) await page.addInitScript(withReplay, replay);
   if (before) await page.addInitScript(before);
+  if (media) await page.emulateMedia({ media });
   await page.goto(`file://${file}`);
   await page.waitForFunction(() => document.documentElement.dataset.ready === "yes");
   return page;
