@@ -485,7 +485,7 @@ static void read_results(fmu_instance *self)
     ld_summary_each(all->runner->summary(self->run), take_result, &at);
 }
 
-static ld_status tell(fmu_instance *self, ld_error *error);
+static ld_status tell_inputs(fmu_instance *self, ld_error *error);
 
 // Outputs follow inputs at once.
 static ld_status output(fmu_instance *self, const fmu_variable *variable, double *value,
@@ -494,7 +494,7 @@ static ld_status output(fmu_instance *self, const fmu_variable *variable, double
     const fmu_runner *runner = self->variables.runner;
     ld_status status = fmu_begin(self, error);
     if (!status && self->inputs_set && !self->exchange.is)
-        status = tell(self, error);
+        status = tell_inputs(self, error);
     if (!status)
         status = fmu_place(self, error);
     if (status)
@@ -607,7 +607,7 @@ ld_status fmu_set_text(fmu_instance *self, unsigned reference, const char *text,
 // ---- steps ----
 
 // Once at an instant, unless it says something else then.
-static ld_status tell(fmu_instance *self, ld_error *error)
+static ld_status tell_inputs(fmu_instance *self, ld_error *error)
 {
     const fmu_runner *runner = self->variables.runner;
     double inputs[FMU_MOST_NUMBERS], now = runner->time(self->run);
@@ -640,7 +640,7 @@ ld_status fmu_ignite(fmu_instance *self, bool *lit, ld_error *error)
 static ld_status apply_inputs(fmu_instance *self, ld_error *error)
 {
     bool lit;
-    ld_status status = self->inputs_set ? tell(self, error) : LD_OK;
+    ld_status status = self->inputs_set ? tell_inputs(self, error) : LD_OK;
     return status ? status : fmu_ignite(self, &lit, error);
 }
 

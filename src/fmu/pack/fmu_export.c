@@ -219,15 +219,26 @@ static void put_sources(package *self, const contents *from, const ld_source *so
     }
 }
 
+// This machine's, and that for Windows where it was built.
+static void put_binaries(package *self, const contents *from)
+{
+    bool two = from->options.version == 2;
+    char binary[IDENTIFIER_SIZE + 32];
+    size_t windows = (size_t)(fmu_windows_end - fmu_windows);
+    snprintf(binary, sizeof binary, "binaries/%s/%s.so",
+             two ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3, from->identifier);
+    package_put(self, binary, fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
+    snprintf(binary, sizeof binary, "binaries/%s/%s.dll", two ? "win64" : "x86_64-windows",
+             from->identifier);
+    if (windows > 0)
+        package_put(self, binary, fmu_windows, windows);
+}
+
 static void put_all(package *self, const void *data)
 {
     const contents *from = data;
-    char binary[IDENTIFIER_SIZE + 32];
-    snprintf(binary, sizeof binary, "binaries/%s/%s.so",
-             from->options.version == 2 ? FOREIGN_BINARIES_2 : FOREIGN_BINARIES_3,
-             from->identifier);
     package_put(self, "modelDescription.xml", from->description, from->description_length);
-    package_put(self, binary, fmu_binary, (size_t)(fmu_binary_end - fmu_binary));
+    put_binaries(self, from);
     package_put(self, "resources/" FMU_SCENARIO_FILE, from->scenario, from->scenario_length);
     package_put(self, "resources/" FMU_PART_FILE, from->part, from->part_length);
     put_sources(self, from, ld_model_source(from->model));
