@@ -369,27 +369,20 @@ static bool step_down(const problem *the, const waypoint *from, waypoint *to)
     return false;
 }
 
-// Newton with halved steps from the guess in y; a Jacobian is kept while it serves. Ends where no
-// step makes the residual smaller.
+// Newton with halved steps from the guess in y. Ends where no step makes the residual smaller.
 static double newton(const problem *the, double *y)
 {
-    const double fine = 1e-6;
     size_t size = (size_t)the->self->launcher.state_count * sizeof(double);
     waypoint at, next;
-    bool rounding = false, kept = false;
+    bool rounding = false;
     memcpy(at.y, y, size);
     if (!reach(the, &at))
         return INFINITY;
     for (int iteration = 0; iteration < 60 && !rounding; iteration++) {
-        if (!kept && find_jacobian(the, at.y))
+        if (find_jacobian(the, at.y) || !step_down(the, &at, &next))
             break;
-        bool down = step_down(the, &at, &next);
-        if (!down && (!kept || at.size < fine))
-            break;
-        rounding = down && at.size < fine && next.size > 0.1 * at.size;
-        kept = down && next.size < SERVES * at.size;
-        if (down)
-            at = next;
+        rounding = at.size < 1e-6 && next.size > 0.1 * at.size;
+        at = next;
     }
     memcpy(y, at.y, size);
     return at.size;
