@@ -20,8 +20,8 @@ static const double GOOD = 1e-9, QUIET = 1e-6, ALLOWED = 1e-2;
 
 typedef struct differences {
     fmu_instance *self;
-    const fmu_jacobian *of;
-    // of all variables, by value reference: along the direction; as they were set
+    const fmu_jacobian *of; // by places among the variables
+    // of all variables, by place: along the direction; as they were set
     double *direction, *number;
     bool *changed;
     double t, x[LD_MAX_STATES]; // where an importer that takes the steps is
@@ -76,7 +76,7 @@ static ld_status find_unknowns(const differences *d, double step, double *value,
         } else if (v->group == FMU_RESULT)
             value[i] = 0;
         else
-            status = fmu_get_number(d->self, d->of->unknown[i], false, &value[i], error);
+            status = fmu_get_number(d->self, v->reference, FMU_REAL, &value[i], error);
     }
     return status;
 }
@@ -96,7 +96,7 @@ static void find_nominals(const differences *d, double *nominal)
     const double time = 0.01, wrench = 1e3, place = 0.01, motion = 1; // [s, N, N m, m, 1, m/s]
     double states[LD_MAX_STATES] = {0};
     if (self->exchange.is && self->run)
-        launch_exchange_nominals(self->run, states);
+        self->variables.runner->exchanging->nominals(self->run, states);
     for (size_t i = 0; i < self->variables.count; i++) {
         const fmu_variable *v = &self->variables.item[i];
         nominal[i] = v->group == FMU_TIME                                        ? time
@@ -108,21 +108,24 @@ static void find_nominals(const differences *d, double *nominal)
     }
 }
 
-// Along all at once, in an order of signs that is none of theirs.
+// The most along some directions of all at once, in signs of no order.
 static void find_scales(const differences *d, const double *nominal)
 {
+    enum { DIRECTIONS = 3 };
     const double work = 1e6;
-    differences all = *d;
     ld_error unsolved;
-    for (size_t i = 0; i < d->self->variables.count; i++)
-        all.direction[i] = nominal[i] < work && d->self->variables.item[i].group != FMU_TIME
-                               ? nominal[i] * sin((double)(i * i))
-                               : 0;
-    if (find_sides(&all, FIRST_STEP, &unsolved))
-        return;
-    for (size_t i = 0; i < d->of->unknowns; i++)
-        d->scale[i] =
-            fmax(fabs(d->plus[i] - d->middle[i]), fabs(d->minus[i] - d->middle[i])) / FIRST_STEP;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        for (size_t i = 0; i < d->self->variables.count; i++)
+            d->direction[i] = nominal[i] < work && d->self->variables.item[i].group != FMU_TIME
+                                  ? nominal[i] * sin((double)(i * i) + k)
+                                  : 0;
+        if (find_sides(d, FIRST_STEP, &unsolved))
+            return;
+        for (size_t i = 0; i < d->of->unknowns; i++) {
+            double change = fmax(fabs(d->plus[i] - d->middle[i]), fabs(d->minus[i] - d->middle[i]));
+            d->scale[i] = fmax(d->scale[i], change / FIRST_STEP);
+        }
+    }
 }
 
 // ---- differences
@@ -251,15 +254,17 @@ static ld_status differentiate(const differences *d, const double *seed, double 
     return status;
 }
 
-static ld_status check_one(const fmu_instance *self, unsigned reference, bool is_known,
-                           ld_error *error)
+// The place of a known or unknown among the variables.
+static ld_status find_place(const fmu_instance *self, unsigned reference, bool is_known,
+                            unsigned *place, ld_error *error)
 {
-    const fmu_variable *v =
-        reference < self->variables.count ? &self->variables.item[reference] : NULL;
-    if (!v)
+    *place = (unsigned)fmu_variables_find(&self->variables, reference);
+    if (*place >= self->variables.count)
         return ld_fail(error, LD_ERR_INPUT, "variable %u does not exist", reference);
-    bool follows = fmu_is_output(v) || fmu_is_local(v),
-         placed = self->exchange.is && self->going && (v->group == FMU_STATE || !v->group);
+    const fmu_variable *v = &self->variables.item[*place];
+    bool follows = (fmu_is_output(v) || fmu_is_local(v)) && fmu_type_of(v) == FMU_REAL,
+         placed =
+             self->exchange.is && self->going && (v->group == FMU_STATE || v->group == FMU_TIME);
     if (is_known ? v->group == FMU_PART_INPUT || placed : follows)
         return LD_OK;
     return ld_fail(error, LD_ERR_INPUT,
@@ -270,13 +275,16 @@ static ld_status check_one(const fmu_instance *self, unsigned reference, bool is
                                       : ", a rate of a state or an event indicator");
 }
 
-static ld_status check(const fmu_instance *self, const fmu_jacobian *of, ld_error *error)
+// The same by places, of which `place` has room for all.
+static ld_status find_places(const fmu_instance *self, const fmu_jacobian *of, unsigned *place,
+                             fmu_jacobian *found, ld_error *error)
 {
     ld_status status = LD_OK;
+    *found = (fmu_jacobian){place, of->unknowns, place + of->unknowns, of->knowns};
     for (size_t i = 0; i < of->unknowns && !status; i++)
-        status = check_one(self, of->unknown[i], false, error);
+        status = find_place(self, of->unknown[i], false, &place[i], error);
     for (size_t k = 0; k < of->knowns && !status; k++)
-        status = check_one(self, of->known[k], true, error);
+        status = find_place(self, of->known[k], true, &place[of->unknowns + k], error);
     return status;
 }
 
@@ -331,10 +339,13 @@ static ld_status differentiate_aside(differences *d, const double *seed, double 
 ld_status fmu_derivative_along(fmu_instance *self, const fmu_jacobian *of, const double *seed,
                                double *value, bool *bent, ld_error *error)
 {
-    differences d = {.self = self, .of = of};
+    fmu_jacobian places;
+    differences d = {.self = self, .of = &places};
     double sum = 0;
     *bent = false;
-    ld_status status = check(self, of, error);
+    unsigned *place = calloc(of->unknowns + of->knowns + 1, sizeof *place);
+    ld_status status = place ? find_places(self, of, place, &places, error)
+                             : ld_fail(error, LD_ERR_MEMORY, "no memory");
     for (size_t k = 0; k < of->knowns; k++)
         sum += 0 * seed[k];
     if (!status && sum != 0)
@@ -344,6 +355,7 @@ ld_status fmu_derivative_along(fmu_instance *self, const fmu_jacobian *of, const
     if (!status)
         status = differentiate_aside(&d, seed, value, bent, error);
     free(d.direction);
+    free(place);
     return status;
 }
 

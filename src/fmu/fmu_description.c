@@ -244,14 +244,15 @@ static bool sums_works(const fmu_variable *v)
            (begins(v->name, "work.") || strcmp(v->name, "energy.residual") == 0);
 }
 
-// While time continues; results are reported once, by what has happened.
+// While time continues; results are reported once, by what has happened. What a vehicle receives
+// acts on its rates alone.
 static known known_of(const fmu_variables *all, const fmu_variable *v)
 {
     if (v->group == FMU_RESULT)
         return (known){0};
     bool forced = !is_velocity(v);
     return (known){.time = all->exchange && forced,
-                   .told = all->runner->follows && forced,
+                   .told = (all->runner->follows || v->group == FMU_RATE) && forced,
                    .states = all->exchange,
                    .works = all->exchange && sums_works(v)};
 }

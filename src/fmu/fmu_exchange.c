@@ -7,8 +7,8 @@
 
 static size_t count_of(const fmu_instance *self, fmu_vector which)
 {
-    return (size_t)(which == FMU_INDICATORS ? launch_exchange_indicators(self->run)
-                                            : launch_exchange_states(self->run));
+    const fmu_exchanging *by = self->variables.runner->exchanging;
+    return (size_t)(which == FMU_INDICATORS ? by->indicators(self->run) : by->states(self->run));
 }
 
 // ---- modes ----
@@ -54,7 +54,7 @@ ld_status fmu_set_time(fmu_instance *self, double t, ld_error *error)
 // records what came of it; until then all stands still.
 static bool is_over(const fmu_instance *self)
 {
-    return ld_run_is_finished(self->run);
+    return self->variables.runner->is_finished(self->run);
 }
 
 static ld_status check_count(const fmu_instance *self, fmu_vector which, size_t count,
@@ -98,10 +98,10 @@ ld_status fmu_get_vector(fmu_instance *self, fmu_vector which, double *value, si
         return status;
     switch (which) {
     case FMU_STATES:
-        launch_exchange_get(self->run, value);
+        self->variables.runner->exchanging->get_state(self->run, value);
         return LD_OK;
     case FMU_NOMINALS:
-        launch_exchange_nominals(self->run, value);
+        self->variables.runner->exchanging->nominals(self->run, value);
         return LD_OK;
     case FMU_RATES:
         return fmu_rates(self, value, error);
@@ -130,7 +130,7 @@ ld_status fmu_complete_step(fmu_instance *self, bool *at_event, bool *ended, ld_
         return status;
     status = fmu_place(self, error);
     if (!status)
-        status = launch_exchange_accept(self->run, at_event, error);
+        status = self->variables.runner->exchanging->accept(self->run, at_event, error);
     fmu_forget_outputs(self);
     *at_event |= !status && is_over(self);
     return status;
@@ -157,15 +157,16 @@ ld_status fmu_update_states(fmu_instance *self, fmu_update *update, ld_error *er
         return status;
     status = fmu_place(self, error);
     if (!status)
-        status = launch_exchange_pass_events(self->run, &update->changed, error);
+        status =
+            self->variables.runner->exchanging->pass_events(self->run, &update->changed, error);
     if (!status)
         status = fmu_ignite(self, &update->changed, error);
     fmu_forget_outputs(self);
     if (status)
         return status;
-    launch_exchange_get(self->run, self->exchange.x);
+    self->variables.runner->exchanging->get_state(self->run, self->exchange.x);
     if (!is_over(self))
-        update->next = launch_exchange_next(self->run) + self->ahead;
+        update->next = self->variables.runner->exchanging->next(self->run) + self->ahead;
     return LD_OK;
 }
 

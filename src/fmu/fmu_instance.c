@@ -210,7 +210,7 @@ static void take_place(fmu_instance *self)
     if (!self->exchange.is)
         return;
     self->exchange.t = self->variables.runner->time(self->run) + self->ahead;
-    launch_exchange_get(self->run, self->exchange.x);
+    self->variables.runner->exchanging->get_state(self->run, self->exchange.x);
 }
 
 // It is the importer's, and over.
@@ -228,14 +228,16 @@ static ld_status fill(int count, double value, double *values)
 
 ld_status fmu_rates(fmu_instance *self, double *rates, ld_error *error)
 {
-    return stands_still(self) ? fill(launch_exchange_states(self->run), 0, rates)
-                              : launch_exchange_rates(self->run, rates, error);
+    return stands_still(self)
+               ? fill(self->variables.runner->exchanging->states(self->run), 0, rates)
+               : self->variables.runner->exchanging->rates(self->run, rates, error);
 }
 
 ld_status fmu_indicators(fmu_instance *self, double *values, ld_error *error)
 {
-    return stands_still(self) ? fill(launch_exchange_indicators(self->run), 1, values)
-                              : launch_exchange_values(self->run, values, error);
+    return stands_still(self)
+               ? fill(self->variables.runner->exchanging->indicators(self->run), 1, values)
+               : self->variables.runner->exchanging->values(self->run, values, error);
 }
 
 ld_status fmu_place(fmu_instance *self, ld_error *error)
@@ -328,9 +330,8 @@ static ld_status make_room(fmu_instance *self, ld_error *error)
 // Whether the instance can be one for model exchange; else why not.
 static ld_status check_exchange(const fmu_instance *self, ld_error *error)
 {
-    if (!self->variables.runner->exchanging)
-        return ld_fail(error, LD_ERR_MISSING, "this FMU supports co-simulation");
-    return launch_exchange_check(self->simulation, error);
+    const fmu_exchanging *by = self->variables.runner->exchanging;
+    return by->check ? by->check(self->simulation, error) : LD_OK;
 }
 
 fmu_instance *fmu_instance_new(const char *resources, const char *token, bool exchange,
@@ -446,7 +447,7 @@ static ld_status exchanged(fmu_instance *self, const fmu_variable *variable, dou
     double all[LD_MAX_STATES];
     ld_status status = LD_OK;
     if (variable->group == FMU_STATE)
-        launch_exchange_get(self->run, all);
+        self->variables.runner->exchanging->get_state(self->run, all);
     else if (variable->group == FMU_RATE)
         status = fmu_rates(self, all, error);
     else

@@ -129,7 +129,71 @@ static ld_status set_state(void *run, double t, const double *x, const double *i
     return launch_exchange_place(run, t, x, NULL, error);
 }
 
-static const fmu_exchanging exchanging = {begin_exchange, load_exchange, set_state};
+// ---- model exchange
+
+static int count_states(const void *run)
+{
+    return launch_exchange_states(run);
+}
+
+static int count_indicators(const void *run)
+{
+    return launch_exchange_indicators(run);
+}
+
+static exchange_quantity name_state(const void *run, int i)
+{
+    return launch_exchange_state(run, i);
+}
+
+static exchange_quantity name_indicator(const void *run, int i)
+{
+    return launch_exchange_indicator(run, i);
+}
+
+static void find_nominals(const void *run, double *nominal)
+{
+    launch_exchange_nominals(run, nominal);
+}
+
+static void get_state(void *run, double *x)
+{
+    launch_exchange_get(run, x);
+}
+
+static ld_status find_rates(void *run, double *rate, ld_error *error)
+{
+    return launch_exchange_rates(run, rate, error);
+}
+
+static ld_status find_values(void *run, double *indicator, ld_error *error)
+{
+    return launch_exchange_values(run, indicator, error);
+}
+
+static double next_instant(const void *run)
+{
+    return launch_exchange_next(run);
+}
+
+static ld_status accept_step(void *run, bool *happens, ld_error *error)
+{
+    return launch_exchange_accept(run, happens, error);
+}
+
+static ld_status pass_events(void *run, bool *happened, ld_error *error)
+{
+    return launch_exchange_pass_events(run, happened, error);
+}
+
+#define EXCHANGING                                                                                 \
+    .check = launch_exchange_check, .load = load_exchange, .states = count_states,                 \
+    .indicators = count_indicators, .state = name_state, .indicator = name_indicator,              \
+    .nominals = find_nominals, .get_state = get_state, .rates = find_rates, .values = find_values, \
+    .next = next_instant, .accept = accept_step, .pass_events = pass_events
+
+static const fmu_exchanging exchanging = {EXCHANGING, .begin = begin_exchange,
+                                          .set_state = set_state};
 const fmu_runner fmu_launch = {ANY_BASE, .begin = begin, .exchanging = &exchanging};
 
 // ---- on an externally driven base ----
@@ -176,8 +240,8 @@ static ld_status place_external(void *run, double t, const double *x, const doub
     return launch_exchange_place(run, t, x, &base, error);
 }
 
-static const fmu_exchanging exchanging_external = {begin_exchange_external, load_exchange,
-                                                   place_external};
+static const fmu_exchanging exchanging_external = {EXCHANGING, .begin = begin_exchange_external,
+                                                   .set_state = place_external};
 const fmu_runner fmu_launch_external = {ANY_BASE,
                                         .input_count = FMU_FRAME_NUMBERS,
                                         .follows = true,

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "launch/launch_exchange_names.h"
 #include "launchdyn/run.h"
 
 enum {
@@ -47,16 +48,28 @@ typedef struct fmu_runner {
     ld_status (*save)(void *run, void *bytes, size_t capacity, size_t *size, ld_error *error);
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
 
-    // Model exchange, of what is an ld_run, by launch/launch_exchange.h; NULL: there is none.
-    const struct fmu_exchanging *exchanging;
+    const struct fmu_exchanging *exchanging; // model exchange
 } fmu_runner;
 
-// As those above, of a run whose steps an importer takes; then where it is.
+// As those above, of a run whose steps an importer takes (launch/launch_exchange.h says what each
+// does); `check`: whether there can be one, NULL: always.
 typedef struct fmu_exchanging {
+    ld_status (*check)(const ld_simulation *simulation, ld_error *error);
     void *(*begin)(const ld_simulation *simulation, double *inputs, ld_error *error);
     void *(*load)(const ld_simulation *simulation, const void *bytes, size_t size, ld_error *error);
+    int (*states)(const void *run);
+    int (*indicators)(const void *run);
+    exchange_quantity (*state)(const void *run, int i);
+    exchange_quantity (*indicator)(const void *run, int i);
+    void (*nominals)(const void *run, double *nominal);
     ld_status (*set_state)(void *run, double t, const double *x, const double *inputs,
                            ld_error *error);
+    void (*get_state)(void *run, double *x);
+    ld_status (*rates)(void *run, double *rate, ld_error *error);
+    ld_status (*values)(void *run, double *indicator, ld_error *error);
+    double (*next)(const void *run);
+    ld_status (*accept)(void *run, bool *happens, ld_error *error);
+    ld_status (*pass_events)(void *run, bool *happened, ld_error *error);
 } fmu_exchanging;
 
 // A launch on a base that continues its own, and on an externally driven one; a vehicle alone.

@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "launch/launch_exchange.h"
-#include "launch/launch_exchange_names.h"
 #include "launchdyn/scenario.h"
 #include "launchdyn/summary.h"
 #include "launchdyn/version.h"
@@ -16,6 +14,7 @@
 #include "model/parts.h"
 #include "quantities/summary.h"
 #include "quantities/summary_quantities.h"
+#include "systems/launching/launcher.h"
 
 #define KEY_PREFIX "scenario."
 
@@ -329,15 +328,16 @@ static void take_result(void *data, const ld_quantity *result)
     add(self, FMU_RESULT, (ld_column){name, result->unit, result->description}, NAN, NULL);
 }
 
-static void add_states(gathering *self, const ld_run *run)
+static void add_states(gathering *self, const void *run)
 {
+    const fmu_exchanging *by = self->into->runner->exchanging;
     double nominal[LD_MAX_STATES];
     char name[NAME_SIZE];
-    int count = launch_exchange_states(run);
-    launch_exchange_nominals(run, nominal);
+    int count = by->states(run);
+    by->nominals(run, nominal);
     begin_group(self);
     for (int i = 0; i < count && !self->full; i++) {
-        const exchange_quantity state = launch_exchange_state(run, i);
+        const exchange_quantity state = by->state(run, i);
         snprintf(name, sizeof name, "state.%s", state.name);
         add(self, FMU_STATE, (ld_column){name, state.unit, state.description}, NAN, NULL);
         if (!self->full)
@@ -345,13 +345,13 @@ static void add_states(gathering *self, const ld_run *run)
     }
     begin_group(self);
     for (int i = 0; i < count; i++) {
-        const exchange_quantity state = launch_exchange_state(run, i);
+        const exchange_quantity state = by->state(run, i);
         snprintf(name, sizeof name, "der(state.%s)", state.name);
         add(self, FMU_RATE, (ld_column){name, state.rate_unit, "Its rate"}, NAN, NULL);
     }
     begin_group(self);
-    for (int i = 0; i < launch_exchange_indicators(run); i++) {
-        const exchange_quantity indicator = launch_exchange_indicator(run, i);
+    for (int i = 0; i < by->indicators(run); i++) {
+        const exchange_quantity indicator = by->indicator(run, i);
         snprintf(name, sizeof name, "indicator.%s", indicator.name);
         add(self, FMU_INDICATOR, (ld_column){name, indicator.unit, indicator.description}, NAN,
             NULL);
@@ -448,7 +448,7 @@ ld_status fmu_variables_make(const fmu_part *part, const ld_model *model,
     add_columns(&all, simulation);
     if (runner->summary)
         add_results(&all, runner->summary(run));
-    self->exchange = runner->exchanging && !launch_exchange_check(simulation, error);
+    self->exchange = !runner->exchanging->check || !runner->exchanging->check(simulation, error);
     if (self->exchange)
         add_states(&all, run);
     runner->end(run);

@@ -77,6 +77,21 @@ static exchange_quantity name_work(const launcher_system *launcher, int i)
     return quantity_as("J", "W", work[place].is, "work.%s", work[place].name);
 }
 
+exchange_quantity exchange_base_work(const launcher_system *launcher, int i)
+{
+    return name_work(launcher, launcher->launching.work_count + i);
+}
+
+exchange_quantity exchange_base_state(int i)
+{
+    return quantity_as("", "", "State of what carries the tube", "base.%d", i + 1);
+}
+
+exchange_quantity exchange_wheel(int i)
+{
+    return quantity_as("", "", "The wheel lands where it rises through zero", "wheel.%d", i + 1);
+}
+
 exchange_quantity launch_exchange_state(const ld_run *run, int i)
 {
     static const char xyz[] = "x|y|z";
@@ -108,8 +123,7 @@ exchange_quantity launch_exchange_state(const ld_run *run, int i)
     for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
         if (i >= groups[k].at && i < groups[k].at + groups[k].count)
             return name_state(&groups[k], i - groups[k].at);
-    return quantity_as("", "", "State of what carries the tube", "base.%d",
-                       i - launcher->base_at + 1);
+    return exchange_base_state(i - launcher->base_at);
 }
 
 exchange_quantity launch_exchange_indicator(const ld_run *run, int i)
@@ -129,8 +143,7 @@ exchange_quantity launch_exchange_indicator(const ld_run *run, int i)
         return quantity_as("", "", "The adaptor touches the surface where it rises through zero",
                            "touch.%d.%d", index / surfaces + 1, index % surfaces + 1);
     case EVENT_BASE:
-        return quantity_as("", "", "The wheel lands where it rises through zero", "wheel.%d",
-                           index + 1);
+        return exchange_wheel(index);
     case EVENT_BREECH:
         return quantity_as("", "", "The rocket touches the breech where it rises through zero",
                            "breech");

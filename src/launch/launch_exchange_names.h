@@ -17,4 +17,10 @@ typedef struct exchange_quantity {
 exchange_quantity launch_exchange_state(const ld_run *run, int i);
 exchange_quantity launch_exchange_indicator(const ld_run *run, int i);
 
+// Of a vehicle without its launcher: its states, works of kinds of its forces, wheels.
+exchange_quantity exchange_base_state(int i);
+struct launcher_system;
+exchange_quantity exchange_base_work(const struct launcher_system *launcher, int i);
+exchange_quantity exchange_wheel(int i);
+
 #endif

@@ -31,6 +31,11 @@ struct ld_vehicle_run {
     double t_before;
     double energy_start;
     integrator *integrator;
+    struct { // of steps that an integrator outside takes, by vehicle_run.h
+        bool is;
+        double t, y[MOST_STATES];             // where that is
+        double last, event[BASE_MOST_EVENTS]; // [s] where its last step ended, events there
+    } outside;
     ld_status status; // what ended it, with its sentence
     ld_error error;
     struct { // the latest evaluation
@@ -48,6 +53,16 @@ static ld_status copy_error(const ld_vehicle_run *self, ld_error *error)
     if (self->status && error)
         *error = self->error;
     return self->status;
+}
+
+static double time_of(const ld_vehicle_run *self)
+{
+    return self->outside.is ? self->outside.t : integrator_time(self->integrator);
+}
+
+static const double *state_of(const ld_vehicle_run *self)
+{
+    return self->outside.is ? self->outside.y : integrator_state(self->integrator);
 }
 
 // ---- the equations ----
@@ -266,7 +281,7 @@ ld_status ld_vehicle_run_begin(const ld_simulation *simulation, ld_vehicle_run *
 
 double ld_vehicle_run_time(const ld_vehicle_run *self)
 {
-    return integrator_time(self->integrator);
+    return time_of(self);
 }
 
 // To t, where a step ends: what is further than this by rounding alone is there.
@@ -338,7 +353,7 @@ ld_status ld_vehicle_run_advance(ld_vehicle_run *self, double t, ld_error *error
 ld_status ld_vehicle_run_set_wrench(ld_vehicle_run *self, const ld_base_wrench *wrench,
                                     ld_error *error)
 {
-    double t = integrator_time(self->integrator), sum = 0;
+    double t = time_of(self), sum = 0;
     if (self->status)
         return copy_error(self, error);
     for (int i = 0; i < 3; i++)
@@ -347,7 +362,7 @@ ld_status ld_vehicle_run_set_wrench(ld_vehicle_run *self, const ld_base_wrench *
         return ld_fail(error, LD_ERR_INPUT, "the vehicle received a wrench that is not finite");
     base_frame tube;
     base_found unused;
-    self->base.kind->find_frame(&self->base, t, integrator_state(self->integrator), &tube, &unused);
+    self->base.kind->find_frame(&self->base, t, state_of(self), &tube, &unused);
     // set again at the same time, it was not reported before
     if (t == self->t_set) {
         self->wrench = self->before;
@@ -365,10 +380,10 @@ ld_status ld_vehicle_run_set_wrench(ld_vehicle_run *self, const ld_base_wrench *
 // Evaluates at the present.
 static ld_status evaluate_present(ld_vehicle_run *self, ld_error *error)
 {
-    double t = integrator_time(self->integrator);
+    double t = time_of(self);
     if (self->status)
         return copy_error(self, error);
-    return evaluate(self, t, integrator_state(self->integrator))
+    return evaluate(self, t, state_of(self))
                ? ld_fail(error, LD_ERR_NUMERIC,
                          "the equations of motion gave no finite result at t = %.9g s", t)
                : LD_OK;
@@ -467,9 +482,9 @@ ld_status ld_vehicle_run_row(ld_vehicle_run *self, double *values, ld_error *err
     ld_status status = evaluate_present(self, error);
     if (status)
         return status;
-    const double *y = integrator_state(self->integrator), *work = y + self->work_at;
+    const double *y = state_of(self), *work = y + self->work_at;
     vehicle_moment now = {
-        .t = integrator_time(self->integrator),
+        .t = time_of(self),
         .kinetic = self->base.kind->dynamics->kinetic_energy(&self->base, &self->latest.found, y),
         .elastic = self->latest.out.elastic,
         .tube_work = y[self->tube_work_at]};
@@ -508,6 +523,12 @@ static void archive_all(ld_vehicle_run *self, archive *bytes)
     archive_doubles(bytes, self->rest.number, sizeof self->rest.number / sizeof(double));
     archive_double(bytes, &self->energy_start);
     integrator_archive(self->integrator, bytes);
+    if (!self->outside.is)
+        return;
+    archive_double(bytes, &self->outside.t);
+    archive_doubles(bytes, self->outside.y, self->state_count);
+    archive_double(bytes, &self->outside.last);
+    archive_doubles(bytes, self->outside.event, BASE_MOST_EVENTS);
 }
 
 ld_status ld_vehicle_run_save(ld_vehicle_run *self, void *bytes, size_t capacity, size_t *size,
@@ -532,12 +553,13 @@ ld_status ld_vehicle_run_save(ld_vehicle_run *self, void *bytes, size_t capacity
     return LD_OK;
 }
 
-ld_status ld_vehicle_run_load(const ld_simulation *simulation, const void *bytes, size_t size,
-                              ld_vehicle_run **run, ld_error *error)
+static ld_status load(const ld_simulation *simulation, bool outside, const void *bytes, size_t size,
+                      ld_vehicle_run **run, ld_error *error)
 {
     ld_vehicle_run *self = *run = create(simulation, error);
     if (!self)
         return error->status;
+    self->outside.is = outside;
     ld_status status = saved_state_check(&saved_run, simulation->model, bytes, size, error);
     if (!status) {
         archive loaded = archive_load(bytes, size);
@@ -551,4 +573,166 @@ ld_status ld_vehicle_run_load(const ld_simulation *simulation, const void *bytes
     ld_vehicle_run_end(self);
     *run = NULL;
     return status;
+}
+
+ld_status ld_vehicle_run_load(const ld_simulation *simulation, const void *bytes, size_t size,
+                              ld_vehicle_run **run, ld_error *error)
+{
+    return load(simulation, false, bytes, size, run, error);
+}
+
+// ---- steps of an integrator outside
+
+ld_status vehicle_exchange_load(const ld_simulation *simulation, const void *bytes, size_t size,
+                                ld_vehicle_run **run, ld_error *error)
+{
+    return load(simulation, true, bytes, size, run, error);
+}
+
+ld_status vehicle_exchange_begin(const ld_simulation *simulation, ld_vehicle_run **run,
+                                 ld_error *error)
+{
+    ld_status status = ld_vehicle_run_begin(simulation, run, error);
+    if (status)
+        return status;
+    ld_vehicle_run *self = *run;
+    size_t size = (size_t)self->state_count * sizeof(double);
+    self->outside.t = self->outside.last = integrator_time(self->integrator);
+    memcpy(self->outside.y, integrator_state(self->integrator), size);
+    self->outside.is = true;
+    status = vehicle_exchange_values(self, self->outside.event, error);
+    if (!status)
+        return LD_OK;
+    ld_vehicle_run_end(self);
+    *run = NULL;
+    return status;
+}
+
+int vehicle_exchange_states(const ld_vehicle_run *self)
+{
+    return self->state_count;
+}
+
+int vehicle_exchange_indicators(const ld_vehicle_run *self)
+{
+    return self->base.event_count;
+}
+
+exchange_quantity vehicle_exchange_state(const ld_vehicle_run *self, int i)
+{
+    static const exchange_quantity of_tube = {"work.tube", "J", "W", "work of the tube on it"};
+    return i < self->work_at        ? exchange_base_state(i)
+           : i < self->tube_work_at ? exchange_base_work(&self->system->launcher, i - self->work_at)
+                                    : of_tube;
+}
+
+void vehicle_exchange_nominals(const ld_vehicle_run *self, double *nominal)
+{
+    const double work = 1e9; // [J] what steers no step
+    bool unused[MOST_STATES];
+    for (int i = 0; i < self->state_count; i++)
+        nominal[i] = INFINITY;
+    self->base.kind->dynamics->tolerances(&self->base, 1, nominal, unused);
+    for (int i = 0; i < self->state_count; i++)
+        nominal[i] = nominal[i] < work ? nominal[i] : work;
+}
+
+ld_status vehicle_exchange_place(ld_vehicle_run *self, double t, const double *y,
+                                 const ld_base_wrench *wrench, ld_error *error)
+{
+    self->outside.t = t;
+    memcpy(self->outside.y, y, (size_t)self->state_count * sizeof *y);
+    self->t_set = NAN; // each wrench is the first one there
+    self->wrench = self->before = (held_wrench){.force = v3_zero()};
+    ld_status status = ld_vehicle_run_set_wrench(self, wrench, error);
+    self->wrench.force_rate = self->wrench.moment_rate = v3_zero();
+    return status;
+}
+
+void vehicle_exchange_get(const ld_vehicle_run *self, double *y)
+{
+    memcpy(y, state_of(self), (size_t)self->state_count * sizeof *y);
+}
+
+static ld_status no_solution(const ld_vehicle_run *self, ld_error *error)
+{
+    return ld_fail(error, LD_ERR_NUMERIC,
+                   "the equations of motion gave no finite result at t = %.9g s", time_of(self));
+}
+
+ld_status vehicle_exchange_rates(ld_vehicle_run *self, double *rate, ld_error *error)
+{
+    return rhs(time_of(self), state_of(self), rate, self) ? no_solution(self, error) : LD_OK;
+}
+
+ld_status vehicle_exchange_values(ld_vehicle_run *self, double *indicator, ld_error *error)
+{
+    return events(time_of(self), state_of(self), indicator, self) ? no_solution(self, error)
+                                                                  : LD_OK;
+}
+
+double vehicle_exchange_next(const ld_vehicle_run *self)
+{
+    return next_stop(self, self->outside.last, INFINITY);
+}
+
+// Whether states have left their constraints by more than the tolerance; then those on them.
+static bool has_drifted(const ld_vehicle_run *self, double *y)
+{
+    double atol[MOST_STATES];
+    bool unused[MOST_STATES], drifted = false;
+    memcpy(y, self->outside.y, (size_t)self->state_count * sizeof *y);
+    if (!self->base.drifts)
+        return false;
+    for (int i = 0; i < self->state_count; i++)
+        atol[i] = INFINITY;
+    self->base.kind->dynamics->tolerances(&self->base, model_run(self->system->model)->tolerance,
+                                          atol, unused);
+    self->base.kind->dynamics->project(&self->base, self->outside.t, y);
+    for (int i = 0; i < self->state_count; i++)
+        drifted |= fabs(y[i] - self->outside.y[i]) > atol[i];
+    return drifted;
+}
+
+// The next step begins here.
+static ld_status begin_step(ld_vehicle_run *self, ld_error *error)
+{
+    self->outside.last = self->outside.t;
+    return vehicle_exchange_values(self, self->outside.event, error);
+}
+
+ld_status vehicle_exchange_accept(ld_vehicle_run *self, bool *happens, ld_error *error)
+{
+    const double rounding = 1e-12, late = 1e-9;
+    double value[BASE_MOST_EVENTS], y[MOST_STATES], next = vehicle_exchange_next(self);
+    double t = self->outside.t, size = fmax(1, fabs(t));
+    *happens = false;
+    if (t < self->outside.last - late * size || t > next + late * size)
+        return ld_fail(error, LD_ERR_INPUT,
+                       "found a step that ends at %.17g s after one that ended at %.17g s; "
+                       "expected at most the next event, at %.17g s",
+                       t, self->outside.last, next);
+    if (t >= next - rounding * size)
+        self->outside.t = next;
+    *happens = self->outside.t >= next || has_drifted(self, y);
+    ld_status status = vehicle_exchange_values(self, value, error);
+    for (int i = 0; i < self->base.event_count && !status; i++)
+        *happens |= self->outside.event[i] * value[i] < 0;
+    return status || *happens ? status : begin_step(self, error);
+}
+
+ld_status vehicle_exchange_pass_events(ld_vehicle_run *self, bool *happened, ld_error *error)
+{
+    const base_system *base = &self->base;
+    double y[MOST_STATES], t;
+    ld_status status = vehicle_exchange_accept(self, happened, error);
+    if (status || !*happened)
+        return status;
+    t = self->outside.t;
+    if (has_drifted(self, y))
+        memcpy(self->outside.y, y, (size_t)self->state_count * sizeof *y);
+    if (base->kind->next_sample && base->kind->next_sample(base, nextafter(t, -INFINITY)) == t)
+        base->kind->sample(base, t, self->outside.y);
+    self->latest.known = false;
+    return begin_step(self, error);
 }

@@ -277,7 +277,9 @@ static bool is_known(const book *self, size_t i)
 static void move_all(book *self, importer *by)
 {
     static double before[MOST], x[IMPORTER_MOST], nominal[IMPORTER_MOST];
-    size_t first = place_of(self, reference_of(self->fmu, "state.tube.position.x"));
+    size_t first = 0;
+    while (!begins(self->name[first], "state."))
+        first++;
     OK_3(by, fmi3GetNominalsOfContinuousStates, nominal, by->states);
     memcpy(x, by->x, by->states * sizeof *x);
     importer_place(by, by->t, x);
@@ -311,7 +313,7 @@ static void watch_all(const char *scenario, double start, const double *at, int 
         const char *element;
         choice *of;
         double said; // of what is said at least so much reacts
-    } lists[] = {{"Output", is_output, 0.1},
+    } lists[] = {{"Output", is_output, 0.05},
                  {"ContinuousStateDerivative", is_rate, 0.2},
                  {"EventIndicator", is_indicator, 0.05}};
     for (int i = 0; i < 3; i++) {
@@ -338,6 +340,7 @@ static void rates_and_outputs_of_states(void **state)
                          "examples/fixed.yaml >external.yaml"),
                      0);
     watch_all("external.yaml", 0, outside, 3);
+    watch_all(MOVING " --part vehicle", -0.1, moving, 3);
 }
 
 // ---- FMI 2

@@ -22,7 +22,8 @@ static void choose(const unpacked_fmu *fmu, const char *causality, const char *p
     for (const char *at = strstr(fmu->description, "<ModelVariables>");
          (at = strchr(at + 1, '<')) && at < end;) {
         char is[16], name[64], reference[16];
-        if (strncmp(at, real, 8) != 0)
+        const char *inside = strchr(at, '>');
+        if (strncmp(at, real, 8) != 0 || (*real == '<' && real[1] == 'S' && inside[2] != 'R'))
             continue;
         attribute_after(at, "causality", is, sizeof is);
         attribute_after(at, "name", name, sizeof name);
@@ -270,15 +271,18 @@ static void their_eigenvalues_are_the_poles(void **state)
 // derivatives of that and of the contact's force.
 static int press_by(importer *by, double depth, double slope[2])
 {
-    static list unknown, known;
+    static list unknown, known, states;
     const double one = 1;
     double x[IMPORTER_MOST], is[2];
     unknown.count = known.count = 0;
     choose(by->fmu, "output", "contact.middle.penetration", &unknown);
     choose(by->fmu, "output", "contact.middle.normal", &unknown);
     choose(by->fmu, "local", "state.rocket.y", &known);
-    unsigned first = reference_of(by->fmu, "state.tube.position.x"),
-             at = known.reference[0] - first;
+    size_t at = 0;
+    states.count = 0;
+    choose(by->fmu, "local", "state.", &states);
+    while (states.reference[at] != known.reference[0])
+        at++;
     memcpy(x, by->x, by->states * sizeof *x);
     for (int i = 0; i < 8; i++) {
         const list penetration = {.count = 1, .reference = {unknown.reference[0]}};
@@ -454,9 +458,10 @@ static void wrong_calls_are_refused(void **state)
     importer_place(&by, 0.004, x);
     for (size_t i = 0; i < rates.count; i++)
         weight[i] = 1.0 / (double)(2 + i);
-    assert_int_equal(along(&by, &rates, &states, seed, value), fmi3OK);
-    OK_3(&by, fmi3GetAdjointDerivative, rates.reference, rates.count, states.reference,
-         states.count, weight, rates.count, back, states.count);
+    assert_true(along(&by, &rates, &states, seed, value) <= (int)fmi3Warning);
+    assert_true(FMU_FUNCTION(&fmu, fmi3GetAdjointDerivative)(
+                    by.instance, rates.reference, rates.count, states.reference, states.count,
+                    weight, rates.count, back, states.count) <= fmi3Warning);
     for (size_t i = 0; i < rates.count; i++)
         forward += weight[i] * value[i];
     for (size_t k = 0; k < states.count; k++)

@@ -604,9 +604,174 @@ static void refuses_what_it_cannot(void **state)
     }
 }
 
+// ---- vehicle and launcher, each for model exchange
+
+enum { FRAME = 13, WRENCH = 6 };
+
+typedef struct halves {
+    importer vehicle, launcher;
+    uint32_t frame[FRAME], wrench[WRENCH], told_frame[FRAME], told_wrench[WRENCH];
+} halves;
+
+static void refer(const unpacked_fmu *fmu, const char *prefix, int count, uint32_t *reference)
+{
+    static const char *const of_wrench[] = {"force.x",  "force.y",  "force.z",
+                                            "moment.x", "moment.y", "moment.z"};
+    static const char *const of_frame[] = {
+        "position.x",   "position.y",   "position.z", "quaternion.0", "quaternion.1",
+        "quaternion.2", "quaternion.3", "velocity.x", "velocity.y",   "velocity.z",
+        "rate.x",       "rate.y",       "rate.z"};
+    for (int i = 0; i < count; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s.%s", prefix, count == WRENCH ? of_wrench[i] : of_frame[i]);
+        reference[i] = reference_of(fmu, name);
+    }
+}
+
+// Both are where their states say: the frame follows from the vehicle's, the wrench from both.
+static void place_halves(halves *self, double t, const double *y)
+{
+    double frame[FRAME], wrench[WRENCH];
+    importer_place(&self->vehicle, t, y);
+    importer_place(&self->launcher, t, y + self->vehicle.states);
+    OK_3(&self->vehicle, fmi3GetFloat64, self->frame, FRAME, frame, FRAME);
+    OK_3(&self->launcher, fmi3SetFloat64, self->told_frame, FRAME, frame, FRAME);
+    OK_3(&self->launcher, fmi3GetFloat64, self->wrench, WRENCH, wrench, WRENCH);
+    OK_3(&self->vehicle, fmi3SetFloat64, self->told_wrench, WRENCH, wrench, WRENCH);
+}
+
+static int halves_f(double t, N_Vector y, N_Vector y_dot, void *user)
+{
+    halves *self = user;
+    place_halves(self, t, N_VGetArrayPointer(y));
+    importer_rates(&self->vehicle, N_VGetArrayPointer(y_dot));
+    importer_rates(&self->launcher, N_VGetArrayPointer(y_dot) + self->vehicle.states);
+    return 0;
+}
+
+static int halves_g(double t, N_Vector y, double *value, void *user)
+{
+    halves *self = user;
+    place_halves(self, t, N_VGetArrayPointer(y));
+    importer_indicators(&self->vehicle, value);
+    importer_indicators(&self->launcher, value + self->vehicle.indicators);
+    return 0;
+}
+
+// The states of both stand one after the other in `both`, which has their integrator alone.
+static void integrate_halves(halves *self, importer *both, double tolerance)
+{
+    double *atol;
+    *both =
+        (importer){.t = self->launcher.t, .states = self->vehicle.states + self->launcher.states};
+    memcpy(both->x, self->vehicle.x, self->vehicle.states * sizeof *both->x);
+    memcpy(both->x + self->vehicle.states, self->launcher.x,
+           self->launcher.states * sizeof *both->x);
+    assert_int_equal(SUNContext_Create(NULL, &both->context), 0);
+    both->y = N_VMake_Serial((sunindextype)both->states, both->x, both->context);
+    both->tolerance = N_VNew_Serial((sunindextype)both->states, both->context);
+    atol = N_VGetArrayPointer(both->tolerance);
+    OK_3(&self->vehicle, fmi3GetNominalsOfContinuousStates, atol, self->vehicle.states);
+    OK_3(&self->launcher, fmi3GetNominalsOfContinuousStates, atol + self->vehicle.states,
+         self->launcher.states);
+    for (size_t i = 0; i < both->states; i++)
+        atol[i] *= tolerance;
+    both->cvode = CVodeCreate(CV_ADAMS, both->context);
+    assert_int_equal(CVodeInit(both->cvode, halves_f, both->t, both->y), 0);
+    assert_int_equal(CVodeSetUserData(both->cvode, self), 0);
+    assert_int_equal(CVodeSVtolerances(both->cvode, tolerance, both->tolerance), 0);
+    assert_int_equal(CVodeRootInit(both->cvode,
+                                   (int)(self->vehicle.indicators + self->launcher.indicators),
+                                   halves_g),
+                     0);
+    assert_int_equal(CVodeSetNoInactiveRootWarn(both->cvode), 0);
+    assert_int_equal(CVodeSetMaxNumSteps(both->cvode, 1000000), 0);
+    both->solver = SUNNonlinSol_FixedPoint(both->y, 0, both->context);
+    assert_int_equal(CVodeSetNonlinearSolver(both->cvode, both->solver), 0);
+}
+
+static void go_halves(halves *self, importer *both)
+{
+    importer *half[] = {&self->vehicle, &self->launcher};
+    while (!self->launcher.ended) {
+        double stop = fmin(fmin(self->vehicle.next, self->launcher.next), both->t + 1);
+        CVodeSetStopTime(both->cvode, stop);
+        int flag = CVode(both->cvode, stop, both->y, &both->t, CV_ONE_STEP);
+        assert_true(flag >= 0);
+        both->steps++;
+        place_halves(self, both->t, both->x);
+        bool asked = importer_complete(half[0]);
+        asked |= importer_complete(half[1]);
+        if (!asked && flag != CV_ROOT_RETURN && both->t != stop)
+            continue;
+        double *x = both->x;
+        for (int i = 0; i < 2; x += half[i]->states, i++) {
+            importer_event(half[i]);
+            memcpy(x, half[i]->x, half[i]->states * sizeof *x);
+        }
+        if (!self->launcher.ended)
+            assert_int_equal(CVodeReInit(both->cvode, both->t, both->y), 0);
+    }
+}
+
+// One integrator takes both as one system without an algebraic loop: as the library's launch.
+static void a_vehicle_and_its_launcher_are_one_launch(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *scenario;
+        const char *more;
+    } cases[] = {
+        {"examples/reference", "platform.elevation.stabiliser.sample=7 ms"},
+        {"examples/multibody/sled", "run.end=0.5 s"},
+    };
+    static halves self;
+    static importer both;
+    for (int i = 0; i < OF_ALL(2, 1); i++) {
+        char line[200];
+        const char *set[] = {"run.lead_in=0.1 s", cases[i].more, "run.tolerance=1e-8", NULL};
+        snprintf(line, sizeof line, "%s.yaml --set '%s' --set '%s' --part vehicle",
+                 cases[i].scenario, set[0], set[1]);
+        unpacked_fmu vehicle = fmu_open(line, 3);
+        snprintf(line, sizeof line, "%s.yaml --set '%s' --set '%s' --part launcher",
+                 cases[i].scenario, set[0], set[1]);
+        unpacked_fmu launcher = fmu_open(line, 3);
+        library from = begin_in_shell(cases[i].scenario, set, NULL);
+        double start = ld_run_time(from.run);
+        assert_int_equal(ld_run_advance(from.run, INFINITY, NULL), LD_OK);
+        importer_open(&self.vehicle, &vehicle, 3);
+        importer_open(&self.launcher, &launcher, 3);
+        importer_start(&self.vehicle, start);
+        importer_start(&self.launcher, start);
+        refer(&vehicle, "base", FRAME, self.frame);
+        refer(&vehicle, "input.wrench", WRENCH, self.told_wrench);
+        refer(&launcher, "input.base", FRAME, self.told_frame);
+        refer(&launcher, "wrench", WRENCH, self.wrench);
+        integrate_halves(&self, &both, 1e-8);
+        go_halves(&self, &both);
+        printf("    %s: %zu and %zu states, %d steps\n", cases[i].scenario, self.vehicle.states,
+               self.launcher.states, both.steps);
+        CHECK_BELOW("exit rates of two FMUs by one integrator [mrad/s]",
+                    1e3 * differ(&self.launcher, &from, 1, exit_rates, 2), 1e-4);
+        CHECK_BELOW("release and exits [s]", differ(&self.launcher, &from, 1, times, 3), 2e-9);
+        CVodeFree(&both.cvode);
+        SUNNonlinSolFree(both.solver);
+        N_VDestroy(both.y);
+        N_VDestroy(both.tolerance);
+        SUNContext_Free(&both.context);
+        importer_close(&self.vehicle);
+        importer_close(&self.launcher);
+        library_end(&from);
+        fmu_close(&vehicle);
+        fmu_close(&launcher);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(a_vehicle_and_its_launcher_are_one_launch, shell_make,
+                                        shell_remove),
         cmocka_unit_test_setup_teardown(comes_to_what_the_library_comes_to, shell_make,
                                         shell_remove),
         cmocka_unit_test_setup_teardown(the_end_is_recorded, shell_make, shell_remove),
