@@ -139,7 +139,7 @@ static void write_extremes(FILE *to, const float *value, size_t count, int colum
             float most = value[k];
             for (size_t i = 1; i < count; i++) {
                 float v = value[i * (size_t)columns + (size_t)k];
-                most = side ? fmaxf(most, v) : fminf(most, v);
+                most = (side ? v > most : v < most) ? v : most;
             }
             fprintf(to, "%s%.9g", k ? "," : "", (double)most);
         }

@@ -71,7 +71,8 @@ class Scene:
 
     def corners(self, name):
         """Of a bending node: its corners by key, in its own axes."""
-        [primitive] = self.json["meshes"][self.json["nodes"][self.nodes[name]]["mesh"]]["primitives"]
+        mesh = self.json["nodes"][self.nodes[name]]["mesh"]
+        [primitive] = self.json["meshes"][mesh]["primitives"]
         still = self.numbers(primitive["attributes"]["POSITION"])
         moved = [self.numbers(target["POSITION"]) for target in primitive["targets"]]
         weights = self.channel(name, "weights")[1].reshape(-1, len(moved))
@@ -101,7 +102,7 @@ class Scenes(Case):
         return result, Scene(self.folder / "scene.glb")
 
     def tip(self, scene):
-        """The middle of the tube's last ring in the undeformed tube's frame, and the ring's normal."""
+        """The middle of the tube's last ring in the undeformed tube's frame, its normal."""
         r, A = scene.local("tube")
         ring = scene.corners("tube")[:, -24:]
         at = r + np.einsum("kij,kj->ki", A, ring.mean(1))
@@ -159,7 +160,8 @@ class Scenes(Case):
         self.assertAlmostEqual(times[-1], 1.25, delta=0.05)
         last = scene.frame("rocket 1")[0][-1]
         self.near("where the tube's node hands the rocket over [m]", r[0], last, 2e-2)
-        there = r[-1] + np.linalg.norm(r[0] - [flight[f"center.{k}"][0] for k in "xyz"]) * A[-1, :, 0]
+        centre = [flight[f"center.{k}"][0] for k in "xyz"]
+        there = r[-1] + np.linalg.norm(r[0] - centre) * A[-1, :, 0]
         row = np.searchsorted(flight["t"], result["t"][at][0] + times[-1] - 1e-6)
         self.near("mass centre in flight [m]", there, [flight[f"center.{k}"][row] for k in "xyz"],
                   1e-5)
@@ -170,7 +172,8 @@ class Scenes(Case):
         r, A = scene.frame(name)
         self.near(f"{name} [m]", r, np.transpose([result[f"{name}.{k}"][at] for k in "xyz"]), 3e-7)
         yaw, pitch, roll = (result[f"{name}.{k}"][at] for k in ("yaw", "pitch", "roll"))
-        nose = np.transpose([np.cos(yaw) * np.cos(pitch), np.sin(pitch), -np.sin(yaw) * np.cos(pitch)])
+        level = np.cos(pitch)
+        nose = np.transpose([np.cos(yaw) * level, np.sin(pitch), -np.sin(yaw) * level])
         self.near(f"{name}'s x axis [1]", A[:, :, 0], nose, 3e-7)
         self.near(f"{name}'s y axis along y [1]", A[:, 1, 1], np.cos(pitch) * np.cos(roll), 3e-7)
         self.near(f"{name}'s z axis along y [1]", A[:, 1, 2], -np.cos(pitch) * np.sin(roll), 3e-7)
@@ -190,7 +193,8 @@ class Scenes(Case):
     def test_bodies_of_a_mechanism(self):
         result, scene = self.scene(ld.Scenario.read(EXAMPLES / "multibody/mast.yaml"), end=0.1)
         at = rows(result, scene)
-        bodies = [name[:-4] for name in result.history.columns if name.startswith(("body.", "beam."))
+        names = result.history.columns
+        bodies = [name[:-4] for name in names if name.startswith(("body.", "beam."))
                   and name.endswith(".yaw")]
         self.assertGreater(len([name for name in bodies if name.startswith("beam.")]), 0)
         for name in bodies:
