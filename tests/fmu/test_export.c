@@ -764,8 +764,8 @@ static void has_what_is_chosen(void **state)
     char names[4][128];
     static const char *const chosen[] = {"", " --parameters ''",
                                          " --outputs 'rocket.s,tip.*,summary.*.exit_speed'",
-                                         " --outputs 'rocket.s,tip.*,summary.*.exit_speed' "
-                                         "--parameters 'rocket.*,tubes.modes.bend*'"};
+                                         (" --outputs 'rocket.s,tip.*,summary.*.exit_speed' "
+                                          "--parameters 'rocket.*,tubes.modes.bend*'")};
     for (int i = 0; i < 4; i++) {
         char line[256];
         snprintf(line, sizeof line, EXAMPLE("fixed") "%s --set title=\"$(printf %%0200d)\"",
