@@ -112,7 +112,7 @@ const quantity_table flight_quantities = {groups, sizeof groups / sizeof *groups
 
 ld_status flight_columns(const flight_system *system, quantity_columns *columns, ld_error *error)
 {
-    bool pulls = system->rocket->line.present;
+    bool pulls = system->rocket && system->rocket->line.present;
     const quantity_things things = {.count = {[EACH_RUN] = 1,
                                               [EACH_EARTH] = !system->earth.flat,
                                               [EACH_LINE] = pulls,

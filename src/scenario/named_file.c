@@ -32,17 +32,17 @@ static char *folder_of(scenario_reader *reader, const char *name)
     return pool_text(reader, name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
 }
 
-// Puts base64 in place of a mesh's bytes: what a run keeps are texts.
-static ld_status keep_as_text(char **text, size_t *length, ld_error *error)
+// A file's text, which it takes over: base64 in place of a mesh's bytes, as what a run keeps are
+// texts. NULL: no memory.
+static char *kept_text(char *text, size_t *length)
 {
     text_writer kept = {0};
     if (*length < strlen(MESH_FILE_HEAD) ||
-        memcmp(*text, MESH_FILE_HEAD, strlen(MESH_FILE_HEAD)) != 0)
-        return LD_OK;
-    base64_write(&kept, *text, *length);
-    free(*text);
-    *text = text_take(&kept, length);
-    return *text ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "cannot be read: no memory");
+        memcmp(text, MESH_FILE_HEAD, strlen(MESH_FILE_HEAD)) != 0)
+        return text;
+    base64_write(&kept, text, *length);
+    free(text);
+    return text_take(&kept, length);
 }
 
 // Reads a file into the source, as `within`; NULL after a message.
@@ -57,8 +57,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
         return NULL;
     }
     ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
-    if (!status)
-        status = keep_as_text(&text, &length, &error);
+    if (!status && !(text = kept_text(text, &length)))
+        status = ld_fail(&error, LD_ERR_MEMORY, "cannot be read: no memory");
     reader->no_memory |= status == LD_ERR_MEMORY;
     reader->no_file |= status == LD_ERR_FILE;
     if (status != LD_OK) {

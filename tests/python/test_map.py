@@ -61,7 +61,9 @@ class TestMap(Case):
         with ThreadPoolExecutor(2) as threads:
             data = self.study.map(threads, self.folder / "mapped", progress=told.append)
             self.assertEqual(told[-1], ld.Counts(12, 12, 0, 12))
+        with Counting() as threads:
             again = self.study.map(threads, self.folder / "mapped", progress=told.append)
+            self.assertEqual(threads.asked, [])
         self.assertEqual(told[-1].now, 0)
         self.expect_same(data, "exit_speed")
         self.assertEqual([p.done for p in again.points], [6, 6])

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import launchdyn as ld
 import numpy as np
-from support import BUILD, FIXED, Case, command
+from support import FIXED, Case, command
 
 try:
     from matplotlib import pyplot
@@ -191,6 +191,11 @@ class TestNumbers(Case):
                                  list(cell.estimate), (words, name))
         self.assertEqual([row["points"] for row in self.rows("--statistic", "mean")], [1] * 6)
 
+    def refusal(self, *words):
+        with self.assertRaises(subprocess.CalledProcessError) as found:
+            command(*words)
+        return found.exception
+
     def test_refused(self):
         for keys, more, said in (
                 (("base.elevtion",), {}, "did you mean base.elevation"),
@@ -203,14 +208,11 @@ class TestNumbers(Case):
         for words, said in ((("--over", "base.elevtion"), "swept are base.elevation, rocket.mass"),
                             (("--over", "base.elevation", "--what", "exit_sped"), "exit_speed"),
                             (("--against", "9"), "they go from 1 to 6")):
-            done = subprocess.run([BUILD / "launchdyn", "study", "plot", self.where, *words],
-                                  capture_output=True, text=True, check=False)
+            done = self.refusal("study", "plot", self.where, *words)
             self.assertEqual(done.returncode, 2)
             self.assertEqual(len(done.stderr.splitlines()), 1)
             self.assertIn(said, done.stderr)
-        done = subprocess.run(
-            [BUILD / "launchdyn", "plot", self.where, "-o", self.folder / "x.svg"],
-            capture_output=True, text=True, check=False)
+        done = self.refusal("plot", self.where, "-o", self.folder / "x.svg")
         self.assertEqual(done.returncode, 2)
         self.assertIn(f"launchdyn study plot {self.where}", done.stderr)
 

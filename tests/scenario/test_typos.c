@@ -166,9 +166,9 @@ static void test_unrelated_words(void **state)
         suggested += blocks;
     }
     CHECK_BELOW("unrelated words", words - 200, 0);
-    CHECK_WITHIN("of them with a suggestion in some block", named, 0, 13);
+    CHECK_WITHIN("of them with a suggestion in some block", named, 0, 14);
     CHECK_WITHIN("suggestions in %, over all words and blocks",
-                 share(suggested, (long)words * walk.blocks), 0, 0.235);
+                 share(suggested, (long)words * walk.blocks), 0, 0.25);
 }
 
 // ---- the reader

@@ -97,8 +97,8 @@ double normal_quantile(double p)
 static double log_gamma(double x)
 {
     double product = 1;
-    for (; x < 10; x++)
-        product *= x;
+    while (x < 10)
+        product *= x++;
     double y = 1 / (x * x);
     double series =
         1.0 / 12 +

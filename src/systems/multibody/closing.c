@@ -425,12 +425,14 @@ static ld_status find_limits(ld_mstmm *system, const double *q, ld_error *error)
         status = prepare(system, q, LOOPS_PLACES, &pivots, error);
     if (!status)
         count_rows(system, most);
-    for (uint64_t k = 0; !status && k < 3; k++)
-        for (double size = 0.2; size > 0.01; size *= 0.3)
+    for (uint64_t k = 0; !status && k < 3; k++) {
+        double size = 0.2;
+        for (int i = 0; i < 3; i++, size *= 0.3)
             if (wander(system, k, q, size, pose, pose + system->q_count)) {
                 count_rows(system, most);
                 break;
             }
+    }
     for (int i = 0; !status && i < system->loop_count; i++)
         system->loop_work[i].limit = most[i] - (i > 0 ? most[i - 1] : 0);
     free(pose);
