@@ -30,7 +30,7 @@ int win64_stat(const char *path, struct stat *to);
 #define stat(path, to) win64_stat(path, to)
 
 // Code for AVX2 is left out: gcc for Windows keeps vectors of 32 bytes on stacks that are aligned to 16.
-#ifndef WIN64_WHOLE
+#ifdef WIN64_PLAIN
 #undef __x86_64__
 #endif
 
