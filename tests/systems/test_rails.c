@@ -1,6 +1,6 @@
 // Shoes on the surfaces of a rail against dense multipliers from positions alone, whose contact is
 // its own (support/dense_launch.h), on random states of random rails: surfaces of every direction,
-// flat and round, T-slots, towers, beside an offset guide line.
+// flat and round, T-slots, towers, pressed in or not, beside an offset guide line.
 //   LD_RAIL_STATES   how many of each program (60)
 #include <stdlib.h>
 
@@ -24,7 +24,7 @@ static void draw_surfaces(uint64_t *seed, ld_guide *guide)
         guide->surface[k] = (ld_surface){
             .at = {between(seed, -0.1, 0.1), between(seed, -0.1, 0.1)},
             .normal = between(seed, -3, 3),
-            .gap = between(seed, 0, 1e-3),
+            .gap = between(seed, -2e-4, 1e-3),
             .shape = chance(seed, 0.5) ? LD_SURFACE_FLAT : LD_SURFACE_ROUND,
         };
 }
@@ -40,12 +40,12 @@ static void draw_guide(uint64_t *seed, int form, ld_guide *guide)
     else if (form == LD_GUIDE_T_SLOT)
         guide->t_slot = (ld_t_slot){.at = {between(seed, -0.1, 0.1), between(seed, -0.05, 0.05)},
                                     .lips = between(seed, 0.02, 0.1),
-                                    .gap = between(seed, 0, 1e-3),
-                                    .side_gap = between(seed, 0, 1e-3)};
+                                    .gap = between(seed, -2e-4, 1e-3),
+                                    .side_gap = between(seed, -2e-4, 1e-3)};
     else
         guide->tower = (ld_tower){.rails = 2 + choice(seed, 6),
                                   .first = between(seed, -3, 3),
-                                  .gap = between(seed, 0, 1e-3),
+                                  .gap = between(seed, -2e-4, 1e-3),
                                   .radius = between(seed, 0.05, 0.2)};
 }
 

@@ -17,7 +17,7 @@ typedef struct ld_surface {
     char name[LD_MAX_NAME];
     double at[2];  ///< [m] y, z of a point of it, from the guide line
     double normal; ///< [rad] of the normal from shoe to surface, from y towards z
-    double gap;    ///< [m] between a shoe in its centred place and the surface
+    double gap;    ///< [m] between a shoe in its centred place and the surface; < 0: pressed
     ld_surface_shape shape;
 } ld_surface;
 

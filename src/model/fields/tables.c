@@ -802,14 +802,15 @@ static const field_block pressure_block = {.fields = pressure_fields,
 
 static const field_word shape_words[] = {
     {"flat", LD_SURFACE_FLAT}, {"round", LD_SURFACE_ROUND}, {NULL, 0}};
-#define GAP FROM_TO(0, 1)
+#define GAP FROM_TO(-0.01, 1)
 static const field_row surface_fields[] = {
     {"name", WORD(ld_surface, name), .required = true, .doc = "name in messages and paths"},
     {"at", VECTOR(ld_surface, at, "m", 2), FROM_TO(-10, 10), REQUIRED,
      .doc = "y, z of one of its points from the guide line"},
     {"normal", NUMBER(ld_surface, normal, "rad"), FROM_TO(-2 * PI, 2 * PI), REQUIRED,
      .doc = "direction from the shoe to the surface, from y towards z"},
-    {"gap", NUMBER(ld_surface, gap, "m"), GAP, REQUIRED, .doc = "to a centred shoe"},
+    {"gap", NUMBER(ld_surface, gap, "m"), GAP, REQUIRED,
+     .doc = "to a centred shoe; below 0: pressed by so much"},
     {"shape", CHOICE(ld_surface, shape, shape_words), DEFAULT(LD_SURFACE_FLAT),
      .doc = "flat: roll changes the gap; round: it does not"},
     {0}};
@@ -820,7 +821,8 @@ static const field_row t_slot_fields[] = {
      .doc = "y, z of its middle from the guide line"},
     {"lips", NUMBER(ld_t_slot, lips, "m"), ABOVE_TO(0, 10), REQUIRED,
      .doc = "distance of the lips' middles along z"},
-    {"gap", NUMBER(ld_t_slot, gap, "m"), GAP, REQUIRED, .doc = "over and under the lips"},
+    {"gap", NUMBER(ld_t_slot, gap, "m"), GAP, REQUIRED,
+     .doc = "over and under the lips; below 0: pressed by so much"},
     {"side_gap", NUMBER(ld_t_slot, side_gap, "m"), GAP, REQUIRED, .doc = "on either side"},
     {0}};
 static const field_block t_slot_block = {.fields = t_slot_fields};
@@ -830,7 +832,8 @@ static const field_row tower_fields[] = {
      .doc = "number, evenly around the line"},
     {"first", NUMBER(ld_tower, first, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
      .doc = "direction of the first one, from y towards z"},
-    {"gap", NUMBER(ld_tower, gap, "m"), GAP, REQUIRED, .doc = "radial, to each rail"},
+    {"gap", NUMBER(ld_tower, gap, "m"), GAP, REQUIRED,
+     .doc = "radial, to each rail; below 0: pressed by so much"},
     {"radius", NUMBER(ld_tower, radius, "m"), FROM_TO(0, 10), DEFAULT(0),
      .doc = "of the rails' surfaces, where friction acts"},
     {0}};

@@ -145,6 +145,23 @@ static plausible_pair play(const plausible_entry *at)
     return plausible_alone(count > 0 ? 2 * widest / front : NAN);
 }
 
+// Friction of what presses all shoes in their centred place between surfaces [N], by gaps below 0,
+// beside the greatest thrust.
+static plausible_pair grip(const plausible_entry *at)
+{
+    ld_surface surface[LD_MAX_SURFACES];
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_contact *contact = &rocket->contact;
+    int count = guide_surfaces(&at->model->tubes.guide, surface);
+    double d_0 = contact->reference_penetration, normal = 0;
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        for (int k = 0; k < count; k++) {
+            double in = -(surface[k].gap + guide_clearance(&rocket->adaptor[i]));
+            normal += in > 0 ? contact->stiffness * d_0 * pow(in / d_0, contact->exponent) : 0;
+        }
+    return plausible_compare(contact->friction * normal, estimate_peak_thrust(at));
+}
+
 // ---- slot
 
 #define BORE .other = "the bore's radius"
@@ -259,6 +276,9 @@ const plausible_rule plausible_of_tube[] = {
      .why = "tubes lie on their platform"},
     {"tubes.guide.line", "its distance from the elastic axis", .unit = "m", .other = "tubes.length",
      NO_LOW, .high = 0.2, .form = PLAUSIBLE_NORM, .why = "the guide line runs along its beam"},
+    {"tubes.guide", "the friction of shoes pressed by gaps below 0", .unit = "N",
+     .other = "the greatest thrust", NO_LOW, .high = 1, .find = grip, .of = "rocket.contact",
+     .when = "a motor", .why = "the rocket never leaves"},
     {"tubes.guide.t_slot.lips", .unit = "m", .other = "tubes.length", NO_LOW, .high = 0.2,
      .why = "a rail is long and narrow"},
     {"tubes.guide.t_slot.gap", .unit = "m", .other = "tubes.guide.t_slot.lips", NO_LOW, .high = 0.2,

@@ -1,0 +1,156 @@
+// Guides that grip: shoes pressed between opposite surfaces (a gap below 0) against closed forms of
+// a mass between two springs, on a rail that hardly gives.
+#include "model/model.h"
+#include "support/check.h"
+#include "support/launching_run.h"
+#include "support/recorded_run.h"
+#include "support/reference_model.h"
+
+static const double k = 3e6, pressed = 0.2e-3, beside = 0.05e-3, mass = 60;
+
+// A level rail of `stiffness` [N m2], held fast; a rocket on two shoes in its T-slot, without
+// damping.
+static void rail(ld_model *model, double stiffness)
+{
+    const unsigned across = 1u << LD_CLAMP_Y | 1u << LD_CLAMP_Z;
+    reference_model(model);
+    ld_tubes *tubes = &model->tubes;
+    model->base.elevation = 0;
+    tubes->section[0].bending_stiffness = tubes->section[0].torsion_stiffness = stiffness;
+    tubes->modes = (ld_modes){.bending = 2, .torsion = 1, .elements = 8, .span = LD_SPAN_SUPPORTED};
+    for (int i = 0; i < 2; i++)
+        tubes->support[i] = (ld_support){.at = 2.5 * i, .clamped = across};
+    tubes->support[0].clamped |= 1u << LD_CLAMP_X | 1u << LD_CLAMP_ROLL;
+    tubes->slot.kind = LD_SLOT_NONE;
+    tubes->guide = (ld_guide){.present = true,
+                              .form = LD_GUIDE_T_SLOT,
+                              .t_slot = {.lips = 0.06, .gap = -pressed, .side_gap = -beside}};
+    ld_rocket *rocket = &model->rocket;
+    rocket->adaptor_count = 2;
+    rocket->adaptor[1] = rocket->adaptor[2];
+    rocket->adaptor[0].clearance = rocket->adaptor[1].clearance = NAN;
+    rocket->contact = (ld_contact){.law = LD_CONTACT_KELVIN_VOIGT,
+                                   .stiffness = k,
+                                   .exponent = 1,
+                                   .reference_penetration = 1e-3,
+                                   .reference_speed = 0.5,
+                                   .friction_speed = 2e-3};
+    rocket->empty = rocket->full;
+    rocket->propellant = 0;
+    model->run.tolerance = 1e-7;
+}
+
+// Two lips under the shoe carry its share W with what the two over it leave: W = 4 k d while these
+// touch, d < the preload, then 2 k (d + preload).
+static void springs_share_the_weight(void **state)
+{
+    (void)state;
+    static const double gravity[] = {0.5, 9.80665, 12, 90};
+    for (int i = 0; i < 4; i++) {
+        ld_model model;
+        recorded_run run;
+        rail(&model, 1e11);
+        model.gravity = gravity[i];
+        model.run.end = LD_END_TIME;
+        model.run.end_time = 1e-4;
+        recorded_run_make(&run, &model);
+        double share = model.rocket.full.center[0] / model.rocket.adaptor[1].at;
+        printf("  gravity %g m/s2\n", gravity[i]);
+        for (int shoe = 0; shoe < 2; shoe++) {
+            double W = mass * gravity[i] * (shoe ? share : 1 - share), d = W / (4 * k);
+            d = d > pressed ? W / (2 * k) - pressed : d;
+            double over = fmax(0, pressed - d), normal = 2 * k * (pressed + d + over + beside);
+            size_t y = recorded_column(&run, shoe ? "contact.front.y" : "contact.rear.y");
+            CHECK_BELOW("place, over the preload", (recorded_value(&run, 0, y) + d) / pressed,
+                        5e-12);
+            CHECK_BELOW("sum of the normal forces, relative",
+                        run.summary.equilibrium.contact_force[shoe] / normal - 1, 2e-12);
+        }
+        recorded_run_free(&run);
+        reference_model_free(&model);
+    }
+}
+
+// Quarter of the period [s] of a mass on springs of stiffness 2 K about the middle that press by g,
+// of which one lifts beyond g; the speed in the middle.
+static double quarter(double K, double g, double amplitude, double *speed)
+{
+    double both = sqrt(2 * K / mass), one = sqrt(K / mass), A = amplitude;
+    if (A <= g) {
+        *speed = both * A;
+        return acos(0) / both;
+    }
+    double at_g = one * sqrt((A + g) * (A + g) - 4 * g * g);
+    *speed = hypot(at_g, both * g);
+    return acos(2 * g / (A + g)) / one + atan(both * g / at_g) / both;
+}
+
+// The rocket on both springs, then on one of them in turns: across and beside the rail.
+static void springs_lift(void **state)
+{
+    (void)state;
+    static const double amplitude[] = {0.7, 1.8};
+    ld_model model;
+    rail(&model, 1e11);
+    model.gravity = 0;
+    model.rocket.full.center[0] = 0.5 * model.rocket.adaptor[1].at;
+    launching_system *system = launching_system_of(&model);
+    for (int n = 0; n < 4; n++) {
+        launching_run run;
+        double g = n % 2 ? beside : pressed, A = amplitude[n / 2] * g, top;
+        double quarter_period = quarter(n % 2 ? 2 * k : 4 * k, g, A, &top);
+        int at = system->layout.x + 1 + n % 2;
+        launching_run_begin(&run, system, 0.3);
+        run.state[at] = A;
+        launching_run_follow(&run, 1e-10, quarter_period);
+        printf("  %s, %g of the preload: %.3f Hz\n", n % 2 ? "beside" : "across", A / g,
+               0.25 / quarter_period);
+        CHECK_BELOW("place in the middle, over the amplitude", run.state[at] / A, 2e-5);
+        double V = run.state[system->layout.V + 1 + n % 2];
+        CHECK_BELOW("speed there, relative", V / -top - 1, 2e-5);
+        launching_run_follow(&run, 1e-10, quarter_period);
+        CHECK_BELOW("half a period later, over the amplitude", run.state[at] / A + 1, 2e-5);
+    }
+    launching_system_drop(system);
+    reference_model_free(&model);
+}
+
+// While all surfaces touch, each shoe rubs with mu k (4 preload + 2 beside) over its way, whatever
+// weight and motion add on one side and take from the other.
+static void preload_rubs(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        ld_model model;
+        double mu = n ? 0.15 : 0.4, thrust = 6e3, way = 0;
+        rail(&model, 1e8);
+        model.gravity = n ? 0 : 9.80665; // turns the rocket about its rear shoe
+        ld_rocket *rocket = &model.rocket;
+        rocket->contact.friction = mu;
+        rocket->motor.thrust.rows = 2;
+        memcpy(rocket->motor.thrust.data, (double[]){0, thrust, 5, thrust}, 4 * sizeof(double));
+        ld_summary summary = summary_of_run(&model);
+        for (int i = 0; i < 2; i++)
+            way += model.tubes.length - rocket->start_at - rocket->adaptor[i].at;
+        double loss = mu * k * (4 * pressed + 2 * beside) * way;
+        double work = thrust * (model.tubes.length - rocket->start_at);
+        double speed = sqrt(2 * (work - loss) / mass);
+        printf("  friction %g: %.1f N on each shoe\n", mu, loss / way);
+        CHECK_BELOW("work of the friction, relative",
+                    summary.energy.work[POWER_CONTACT_FRICTION] / -loss - 1, 3e-7);
+        if (n)
+            CHECK_BELOW("exit speed, relative", summary.rocket[0].exit_speed / speed - 1, 3e-7);
+        CHECK_BELOW("energy balance, relative", summary.energy.residual_relative, 1e-9);
+        reference_model_free(&model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(springs_share_the_weight),
+        cmocka_unit_test(springs_lift),
+        cmocka_unit_test(preload_rubs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
