@@ -127,9 +127,9 @@ typedef struct mode_choice {
     double cut; // [Hz]
 } mode_choice;
 
-static const mode_choice choices[] = {{6, 2, 0},     {7, 4, 0},     {8, 6, 2000},
-                                      {10, 8, 2500}, {12, 8, 2500}, {24, 8, 2500},
-                                      {24, 8, 5000}, {6, 2, 2500},  {12, 4, 2500}};
+static const mode_choice choices[] = {{6, 2, 0},     {7, 4, 0},     {8, 6, 2000},  {10, 8, 2500},
+                                      {12, 8, 2500}, {24, 8, 2500}, {24, 8, 5000}, {6, 2, 2500},
+                                      {12, 4, 2500}, {10, 8, 1500}, {12, 4, 1500}, {24, 8, 1500}};
 enum { CHOICES = sizeof choices / sizeof *choices, DEFAULT_CHOICE = 1 };
 
 // Of a launcher with a choice of modes: what its exit rates are off [rad/s], CPU time of a launch.
