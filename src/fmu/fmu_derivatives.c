@@ -350,10 +350,10 @@ ld_status fmu_derivative_along(fmu_instance *self, const fmu_jacobian *of, const
         sum += 0 * seed[k];
     if (!status && sum != 0)
         status = ld_fail(error, LD_ERR_INPUT, "a seed is not a number");
-    if (!status && !make_room(&d))
-        status = ld_fail(error, LD_ERR_MEMORY, "no memory");
-    if (!status)
+    if (!status && make_room(&d))
         status = differentiate_aside(&d, seed, value, bent, error);
+    else if (!status)
+        status = ld_fail(error, LD_ERR_MEMORY, "no memory");
     free(d.direction);
     free(place);
     return status;
