@@ -150,6 +150,24 @@ export class Map {
   }
 }
 
+// The line that a rocket in flight pulls.
+export class Pulled {
+  constructor(flight, group) {
+    this.geometry = new BufferGeometry();
+    this.geometry.setAttribute("position", new Float32BufferAttribute(new Float32Array(3 * flight.line.length), 3));
+    this.drawn = new Line(this.geometry, line(COLOURS.hub));
+    this.drawn.frustumCulled = false;
+    group.add(this.drawn);
+  }
+  show(anchor, state) {
+    this.drawn.visible = Boolean(state);
+    if (!state) return;
+    const { position } = this.geometry.attributes;
+    state.line.forEach((place, i) => position.setXYZ(i, ...place.map((v, k) => v - anchor[k])));
+    position.needsUpdate = true;
+  }
+}
+
 // The way of a rocket: all of it faint, what it has flown strong.
 export class Path {
   constructor(flight, group) {

@@ -259,6 +259,13 @@ export class Flight {
     this.values = new Map();
     for (const name of ["center.x", "center.y", "center.z", "rocket.pitch", "rocket.yaw", "rocket.spin", "thrust"])
       this.values.set(name, filled(table.column.get(name).value, table.t));
+    // places of a line that it pulls, from the container
+    this.line = [];
+    while (table.column.has(`line.${this.line.length + 1}.x`)) {
+      const names = ["x", "y", "z"].map((axis) => `line.${this.line.length + 1}.${axis}`);
+      for (const name of names) this.values.set(name, filled(table.column.get(name).value, table.t));
+      this.line.push(names);
+    }
     this.heights = rangeOf([this.values.get("center.y")]);
     this.roll = [0];
     const spin = this.values.get("rocket.spin");
@@ -275,7 +282,7 @@ export class Flight {
       return values[row] + share * (values[next] - values[row]);
     };
     return {
-      row, center: [read("center.x"), read("center.y"), read("center.z")], thrust: read("thrust"),
+      row, line: this.line.map((names) => names.map(read)), center: [read("center.x"), read("center.y"), read("center.z")], thrust: read("thrust"),
       A: multiply(pose(read("rocket.yaw"), read("rocket.pitch"), 0), aboutX(read("roll"))),
     };
   }

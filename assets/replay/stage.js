@@ -4,7 +4,7 @@ import { AmbientLight, DirectionalLight, HemisphereLight, PerspectiveCamera, Sce
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { carrierOf } from "./carriers.js";
 import { Clamps } from "./clamps.js";
-import { Grid, Horizon, Map, Path, Road, Sea } from "./ground.js";
+import { Grid, Horizon, Map, Path, Pulled, Road, Sea } from "./ground.js";
 import { gltfOf } from "./gltf.js";
 import { Vehicle } from "./launcher.js";
 import { Linkage } from "./linkage.js";
@@ -49,6 +49,7 @@ export class Stage {
     this.bodies = rockets.map(() => new Rocket(motion, this.scene));
     this.forces = motion.free ? null : new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
+    this.lines = flights.map((flight) => flight?.line.length && new Pulled(flight, this.scene));
     this.map = this.paths.some(Boolean) ? new Map(this.extent(), this.scene) : null;
     if (this.map) this.survey();
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
@@ -124,6 +125,7 @@ export class Stage {
     if (!motion.free) this.showLauncher(state, launching, fired);
     const afar = this.view === "path";
     this.paths.forEach((path, i) => path?.show(this.anchor, this.flying[i], afar));
+    this.lines.forEach((pulled, i) => pulled && pulled.show(this.anchor, this.flying[i]));
     this.map?.show(this.anchor, afar);
     this.sea?.show(this.anchor, !afar);
     this.follow();

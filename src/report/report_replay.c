@@ -67,7 +67,8 @@ bool report_replay_shows(const char *name, bool flight)
     static const char *const of_flight[] = {"center.x",   "center.y",    "center.z", "rocket.pitch",
                                             "rocket.yaw", "rocket.spin", "thrust"};
     if (flight)
-        return is_one_of(name, of_flight, sizeof of_flight / sizeof *of_flight);
+        return is_one_of(name, of_flight, sizeof of_flight / sizeof *of_flight) ||
+               (strncmp(name, "line.", 5) == 0 && strspn(name + 5, "0123456789") > 0);
     return is_one_of(name, of_launcher, sizeof of_launcher / sizeof *of_launcher) ||
            is_one_of(name, derived, DERIVED) || strncmp(name, "shoe.", 5) == 0 ||
            is_of_mechanism(name) ||
