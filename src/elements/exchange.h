@@ -109,9 +109,12 @@ typedef struct shoe_report {
 #define RECOIL_WORKS(X)                                                                            \
     X(POWER_RECOIL, "recoil", "work of damping and friction of the recoil slides")
 
+// That of a line that the rocket draws out of its container.
+#define LINE_WORKS(X) X(POWER_LINE, "line", "work of the line on the rocket")
+
 enum launching_power {
     LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) PRESSURE_WORKS(WORK_PLACE)
-        RECOIL_WORKS(WORK_PLACE) POWER_COUNT,
+        RECOIL_WORKS(WORK_PLACE) LINE_WORKS(WORK_PLACE) POWER_COUNT,
     POWER_ALWAYS = POWER_AIR, // those that are always there come first
 };
 
@@ -133,6 +136,8 @@ typedef struct launching_output {
     double breech_force;      // [N] on the rocket along +x
     double pressure;          // [Pa] net, where there is one
     double pressure_force;    // [N] on the rocket along +x
+    double line_tension;      // [N] pull of a line on the rocket
+    double line_paid;         // [m] its length that is out
     double emerged;           // [m] length of the rocket that is out of the tube, in the air
     v3 crossflow;             // [N] force of the air on it, in R
     double air_mach;          // of the mass centre through the air, where all of it feels that

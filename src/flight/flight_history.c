@@ -89,9 +89,9 @@ static const quantity pulled[] = {
 };
 #define PLACE(member) .at = QUANTITY_OF_EACH(flight_instant, line, member)
 static const quantity line_places[] = {
-    {"line.%s.x", "m", "line at equal parts of its length from the container to the rocket, in I", PLACE(x)},
-    {"line.%s.y", "m", "line at equal parts of its length from the container to the rocket, in I", PLACE(y)},
-    {"line.%s.z", "m", "line at equal parts of its length from the container to the rocket, in I", PLACE(z)},
+    {"line.%s.x", "m", "line at equal parts of its length, 1 at the container, 12 at the rocket, in I", PLACE(x)},
+    {"line.%s.y", "m", "line at equal parts of its length, 1 at the container, 12 at the rocket, in I", PLACE(y)},
+    {"line.%s.z", "m", "line at equal parts of its length, 1 at the container, 12 at the rocket, in I", PLACE(z)},
 };
 
 static const quantity_group groups[] = {
@@ -152,7 +152,7 @@ static void find_line(const flight_system *system, const flight_phase *phase, fl
     now->tension = v3_norm(line_force(line, now->t));
     now->paid_out = line_paid(line, now->t);
     for (int i = 0; i < LD_LINE_PLACES; i++) {
-        double share = (i + 1.0) / LD_LINE_PLACES;
+        double share = (double)i / (LD_LINE_PLACES - 1);
         v3 r = line_place(line, now->t, v3_add(now->pose.r_O1, arm), share);
         now->line[i].x = r.x;
         now->line[i].y = r.y;

@@ -673,14 +673,14 @@ static void step_line(flight_run *run)
     dormand_prince_start(steps, steps->step.t, steps->step.y);
 }
 
-// After a landing the line falls to the ground.
+// After a landing the line falls until it lies, or hangs from its container.
 static void lay_line(flight_run *run)
 {
-    const double longest = 600; // [s]
+    const double longest = 120; // [s]
     line_bridle bridle = bridle_now(run);
     bridle.v = bridle.a = v3_zero();
     double until = run->line->t + longest;
-    while (!line_lies(run->line) && run->line->t < until)
+    while (!line_rests(run->line) && run->line->t < until)
         line_advance(run->line, run->line->t + line_step(run->line), &bridle);
 }
 
@@ -699,10 +699,10 @@ static void record_line(flight_run *run)
                              .t_break = line->t_broke - ignition,
                              .broken_at = line->broke_at,
                              .reach = line_reach(line, bridle),
-                             .t_rest = run->landed && line_lies(line) ? line->t - ignition : NAN};
+                             .t_rest = run->landed && line_rests(line) ? line->t - ignition : NAN};
     v3_store(out->broken, line->broke);
     for (int i = 0; i < LD_LINE_PLACES; i++) {
-        v3 r = line_place(line, line->t, bridle, (i + 1.0) / LD_LINE_PLACES);
+        v3 r = line_place(line, line->t, bridle, (double)i / (LD_LINE_PLACES - 1));
         out->place[i].x = r.x;
         out->place[i].y = r.y;
         out->place[i].z = r.z;

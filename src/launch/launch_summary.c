@@ -19,7 +19,7 @@ static void record_container(ld_run *run, const base_frame *base)
 {
     const ld_line *line = &run->launch.rocket->line;
     v3 at = v3_from(line->container);
-    if (line->stand == LD_LINE_ON_LAUNCHER)
+    if (line->container_on == LD_LINE_ON_LAUNCHER)
         at = v3_add(base->r, m3_apply(base->A, at));
     v3_store(run->container, at);
 }

@@ -32,7 +32,7 @@ typedef enum quantity_each {
     EACH_MEASURE, // that the scenario asks for
     EACH_SLIDE,   // support on which the tube recoils, by its number among them
     EACH_PARACHUTE,
-    EACH_LINE_PLACE, // at equal parts of the length that is out, the last at the rocket
+    EACH_LINE_PLACE, // at equal parts of the length that is out, the first at the container
     EACH_STATION,    // of the tube, at which loads are asked for
     EACH_SUPPORT,    // of the tube, where loads are asked for
     // of a base of kind multibody: there is one, it has wheels; its parts

@@ -54,8 +54,8 @@ typedef struct ld_line_summary {
     double broken_at;          ///< [m] along it from the rocket
     double reach;              ///< [m] greatest horizontal distance from the container of the part
                                ///< that hangs on it, at the end
-    double t_rest;             ///< [s] it lies on the ground; NaN: it does not
-    /// [m] where it is at the end, in I, at equal parts of its length, the last at the rocket
+    double t_rest;             ///< [s] it rests, after the landing; NaN: it does not
+    /// [m] where it is at the end, in I, at equal parts of its length, the first at the container
     struct {
         double x, y, z;
     } place[LD_LINE_PLACES];

@@ -206,13 +206,13 @@ static const quantity line_pulled[] = {
     {"line.broken.z", "m", "where it breaks, in I", ROCKET(line.broken[2]), "line.broken.position[]"},
     {"line.broken.at", "m", "length from the rocket to there", ROCKET(line.broken_at), KEPT},
     {"line.reach", "m", "at the end, greatest horizontal distance from the container of the part that hangs on it", ROCKET(line.reach), KEPT, LINE("reach of the line", "m", 1, 2)},
-    {"line.t_rest", "s", "the line lies on the ground", ROCKET(line.t_rest), KEPT},
+    {"line.t_rest", "s", "the line rests, after the landing", ROCKET(line.t_rest), KEPT},
 };
 #define LYING(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, line.place, member)
 static const quantity line_places[] = {
-    {"line.%s.x", "m", "line at the end, at equal parts of its length from the container to the rocket, in I", LYING(x), KEPT},
-    {"line.%s.y", "m", "line at the end, at equal parts of its length from the container to the rocket, in I", LYING(y), KEPT},
-    {"line.%s.z", "m", "line at the end, at equal parts of its length from the container to the rocket, in I", LYING(z), KEPT},
+    {"line.%s.x", "m", "line at the end, at equal parts of its length, 1 at the container, 12 at the rocket, in I", LYING(x), KEPT},
+    {"line.%s.y", "m", "line at the end, at equal parts of its length, 1 at the container, 12 at the rocket, in I", LYING(y), KEPT},
+    {"line.%s.z", "m", "line at the end, at equal parts of its length, 1 at the container, 12 at the rocket, in I", LYING(z), KEPT},
 };
 static const quantity final[] = {
     {"final.t", "s", "end of the flight, on the run's clock", ROCKET(final.t)},
@@ -343,6 +343,7 @@ static const quantity holding_works[] = {HOLDING_WORKS(LAUNCHING)};
 static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
+static const quantity line_works[] = {LINE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
 #define ROLLING(place, name, is) BASE_WORK(MECHANISM_POWERS + place, name, is)
@@ -382,6 +383,7 @@ static const quantity_group run_groups[] = {
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, .launch = true, QUANTITY_ROWS(pressure_works)},
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, .launch = true, QUANTITY_ROWS(recoil_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
+    {.title = "work of the line on the rocket", .each = EACH_LINE, .launch = true, QUANTITY_ROWS(line_works)},
     {.title = "works of a multibody base", .each = EACH_MULTIBODY, .launch = true, QUANTITY_ROWS(multibody_works)},
     {.title = "works of its wheels", .each = EACH_ROLLING, .launch = true, QUANTITY_ROWS(rolling_works)},
     {.title = "work of jets", .each = EACH_JET, .launch = true, QUANTITY_ROWS(jet_works)},

@@ -266,6 +266,10 @@ static const quantity energies[] = {
     {"energy.potential", "J", "potential energy of tube and tail in gravity", AT(energy.potential)},
     {"energy.elastic", "J", "elastic energy of modes, supports and suspensions", AT(energy.elastic)},
 };
+static const quantity drawn[] = {
+    {"line.tension", "N", "pull of the line on the rocket", AT(out.launching.line_tension)},
+    {"line.paid_out", "m", "length from container to bridle", AT(out.launching.line_paid)},
+};
 #define LAUNCHING(place, name, is) {"work." name, "J", is, AT(energy.work[place])},
 #define BASE_WORK(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) BASE_WORK(VEHICLE_BODY_POWERS + place, name, is)
@@ -276,6 +280,7 @@ static const quantity crossflow_works[] = {CROSSFLOW_WORKS(LAUNCHING)};
 static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
+static const quantity line_works[] = {LINE_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
 #define ROLLING(place, name, is) BASE_WORK(MECHANISM_POWERS + place, name, is)
 static const quantity multibody_works[] = {MECHANISM_WORKS(BASE_WORK)};
@@ -302,6 +307,7 @@ static const quantity_group groups[] = {
     {.title = "air on the emerged part of the rocket", .each = EACH_CROSSFLOW, ROCKET, QUANTITY_ROWS(crossflow)},
     {.title = "air on the rocket on an open guide", .each = EACH_OPEN_AIR, ROCKET, QUANTITY_ROWS(open_air)},
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
+    {.title = "line that the rocket pulls", .each = EACH_LINE, ROCKET, QUANTITY_ROWS(drawn)},
     {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
     {.title = "section loads at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
     {.title = "section at a station", .each = EACH_STATION, QUANTITY_ROWS(sections)},
@@ -316,6 +322,7 @@ static const quantity_group balances[] = {
     {.title = "work of the air on the rocket on an open guide", .each = EACH_OPEN_AIR, QUANTITY_ROWS(open_air_works)},
     {.title = "work of the pressure behind the rocket", .each = EACH_PRESSURE, QUANTITY_ROWS(pressure_works)},
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
+    {.title = "work of the line on the rocket", .each = EACH_LINE, QUANTITY_ROWS(line_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
     {.title = "works of a multibody base", .each = EACH_MULTIBODY, QUANTITY_ROWS(multibody_works)},
     {.title = "works of its wheels", .each = EACH_ROLLING, QUANTITY_ROWS(rolling_works)},

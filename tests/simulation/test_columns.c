@@ -740,6 +740,7 @@ static const char *const work_names[LAUNCHER_MOST_WORKS] = {
     [POWER_AIR] = "crossflow",
     [POWER_PRESSURE] = "pressure",
     [POWER_RECOIL] = "recoil",
+    [POWER_LINE] = "line",
     BASE_WORK(VEHICLE_STABILISERS) = "stabilisers",
     BASE_WORK(VEHICLE_FRICTION) = "hinge_friction",
     BASE_WORK(VEHICLE_GRAVITY) = "gravity_platform",
@@ -769,6 +770,8 @@ static bool has_work(const ld_model *model, int i)
         return model_has_pressure(model);
     if (i == POWER_RECOIL)
         return model_slide_count(model) > 0;
+    if (i == POWER_LINE)
+        return model->rocket.line.present;
     if (i == POWER_COUNT + VEHICLE_JET)
         return model_has_jet(model);
     return i < POWER_COUNT || model_has_vehicle(model);

@@ -8,7 +8,7 @@
 typedef enum ld_line_end { LD_LINE_HELD, LD_LINE_FREE } ld_line_end;
 /// What the container stands on: axes I, or axes T of the (first) tube, with which it moves up to
 /// the exit.
-typedef enum ld_line_stand { LD_LINE_ON_GROUND, LD_LINE_ON_LAUNCHER } ld_line_stand;
+typedef enum ld_line_container { LD_LINE_ON_GROUND, LD_LINE_ON_LAUNCHER } ld_line_container;
 
 /// Most segments.
 enum { LD_LINE_MOST_SEGMENTS = 500 };
@@ -26,7 +26,7 @@ typedef struct ld_line {
     double drag_along;      ///< [-] on the surface
     double bridle[3];       ///< [m] point of the rocket, in B
     double container[3];    ///< [m] where the line leaves it
-    ld_line_stand stand;
+    ld_line_container container_on;
     double tension; ///< [N] with which the container holds what leaves it
     ld_line_end end;
     int segments; ///< of the whole length

@@ -1259,7 +1259,7 @@ static const field_block air_brakes_block = {.fields = air_brakes_fields,
 
 static const field_word line_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_word line_ends[] = {{"held", LD_LINE_HELD}, {"free", LD_LINE_FREE}, {NULL, 0}};
-static const field_word line_stands[] = {
+static const field_word line_containers[] = {
     {"ground", LD_LINE_ON_GROUND}, {"launcher", LD_LINE_ON_LAUNCHER}, {NULL, 0}};
 static const field_row line_fields[] = {
     {"length", NUMBER(ld_line, length, "m"), ABOVE_TO(0, 1e5), REQUIRED,
@@ -1279,7 +1279,7 @@ static const field_row line_fields[] = {
      .doc = "coefficient of the speed along, on the surface"},
     {"bridle", VECTOR(ld_line, bridle, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
      .doc = "point of the rocket that pulls it, in B"},
-    {"stand", CHOICE(ld_line, stand, line_stands), DEFAULT(LD_LINE_ON_GROUND),
+    {"container_on", CHOICE(ld_line, container_on, line_containers), DEFAULT(LD_LINE_ON_GROUND),
      .doc = "what the container stands on: the ground (`container` in I), or the launcher (in T, "
             "with which it moves until the exit)"},
     {"container", VECTOR(ld_line, container, "m", 3), FROM_TO(-1e4, 1e4), DEFAULT(0),

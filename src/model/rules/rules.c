@@ -650,14 +650,14 @@ static void line_rules(const rule_set *rules)
     if (model_firing_count(model) > 1)
         report_broken(rules, "rocket.line", 0, "requires a single rocket; this scenario fires %d",
                       model_firing_count(model));
-    if (one->stand == LD_LINE_ON_LAUNCHER && !model_has_launcher(model))
-        report_broken(rules, "rocket.line.stand", 0,
-                      "a flight alone has no launcher; give `stand: ground`");
+    if (one->container_on == LD_LINE_ON_LAUNCHER && !model_has_launcher(model))
+        report_broken(rules, "rocket.line.container_on", 0,
+                      "a flight alone has no launcher; give `container_on: ground`");
     if (one->breaking_force <= one->tension)
         report_broken(rules, "rocket.line.tension", 0,
                       "%g N is not below the breaking force of %g N", one->tension,
                       one->breaking_force);
-    if (one->stand == LD_LINE_ON_GROUND && model->environment.ground == LD_GROUND_PLANE &&
+    if (one->container_on == LD_LINE_ON_GROUND && model->environment.ground == LD_GROUND_PLANE &&
         one->container[1] < model->environment.ground_height)
         report_broken(rules, "rocket.line.container", 0, "y = %g m lies below the ground at %g m",
                       one->container[1], model->environment.ground_height);

@@ -370,6 +370,15 @@ static double to_the_end(flight_line *self, double h)
     return h;
 }
 
+// [s] in which the direction of a line without points hardly turns.
+static double turning(const flight_line *self, const line_bridle *bridle)
+{
+    double distance = v3_norm(v3_sub(bridle->r, self->setting.container));
+    if (self->count)
+        return INFINITY;
+    return fmax(1e-5, 0.2 * distance / fmax(v3_norm(bridle->v), 1e-3));
+}
+
 void line_advance(flight_line *self, double to, const line_bridle *bridle)
 {
     double begun = self->t, most = 0.8 * seconds_of_segment(self), spent = 0;
@@ -380,7 +389,7 @@ void line_advance(flight_line *self, double to, const line_bridle *bridle)
         add_points(self, &now);
         find_air(self, &now);
         watch_tensions(self, &now);
-        double longest = fmin(most, 1 / fmax(self->work->settles, 1e-3));
+        double longest = fmin(fmin(most, 1 / fmax(self->work->settles, 1e-3)), turning(self, &now));
         double h = to_the_end(self, fmin(to - self->t, longest));
         bool last = self->t + h >= to || to - self->t - h < 1e-12;
         runge_kutta(self, begun, h, bridle);
@@ -492,10 +501,11 @@ double line_reach(const flight_line *self, v3 bridle)
     return reach;
 }
 
-bool line_lies(const flight_line *self)
+bool line_rests(const flight_line *self)
 {
+    const double slow = 0.1; // [m/s]
     for (int i = 0; i < self->count; i++)
-        if (self->point[i].r.y > self->setting.ground || v3_norm2(self->point[i].v) > 0)
+        if (v3_norm(self->point[i].v) > slow)
             return false;
     return true;
 }

@@ -81,7 +81,7 @@ double line_reach(const flight_line *self, v3 bridle);
 // Length [m] that has left the container at t.
 double line_paid(const flight_line *self, double t);
 
-// Whether all points lie on the ground.
-bool line_lies(const flight_line *self);
+// Whether no point moves faster than 0.1 m/s.
+bool line_rests(const flight_line *self);
 
 #endif

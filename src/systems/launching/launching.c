@@ -44,6 +44,8 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 // Works up to the last kind that the model has.
 static int works_of(const ld_model *model)
 {
+    if (model_rocket(model)->line.present)
+        return POWER_LINE + 1;
     return model_slide_count(model)    ? POWER_RECOIL + 1
            : model_has_pressure(model) ? POWER_PRESSURE + 1
            : model_feels_air(model)    ? POWER_AIR + 1

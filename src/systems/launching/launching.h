@@ -10,6 +10,7 @@
 #include "elements/guide/crossflow.h"
 #include "elements/guide/guide_cut.h"
 #include "elements/guide/ideal.h"
+#include "elements/guide/line_pull.h"
 #include "elements/guide/lock.h"
 #include "elements/guide/open_air.h"
 #include "elements/guide/pressure.h"

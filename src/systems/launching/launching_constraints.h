@@ -5,10 +5,15 @@
 
 #include "systems/launching/launching.h"
 
-// Both kept out of line: inlined, they make an evaluation in a bore slower, the second by 7 %.
+// Kept out of line: inlined, they make an evaluation in a bore slower, the second by 7 %.
 static __attribute__((noinline)) void launching_fly(launching_instant *now)
 {
     open_air_add(now);
+}
+
+static __attribute__((noinline)) void launching_draw(const ld_line *line, launching_instant *now)
+{
+    line_pull(line, now);
 }
 
 static __attribute__((noinline)) void launching_slide(const int lanes, const launching_system *self,
@@ -42,6 +47,8 @@ LD_INLINE void launching_load_rocket(const int lanes, const launching_system *se
         load_rocket(input->load, now);
     launching_touch(lanes, self, now);
     breech_add(lanes, &self->adaptors.law, &self->tube, now);
+    if (self->rocket->line.present)
+        launching_draw(&self->rocket->line, now);
 }
 
 // The constraints in force at an instant, with what they stand on.
