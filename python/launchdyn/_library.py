@@ -281,6 +281,63 @@ class ld_compared_clock(Structure):
     _fields_ = [("offset", c_double), ("uncertainty", c_double), ("found_by", c_char_p)]
 
 
+class ld_mstmm_element(Structure):
+    _fields_ = [("name", c_char_p), ("parent", c_char_p), ("at", c_double * 3),
+                ("attitude", c_double * 4), ("hinge", c_int), ("axis", c_double * 3),
+                ("axis_2", c_double * 3), ("stiffness", c_double * 6), ("damping", c_double * 6),
+                ("rest", c_double * 2), ("mass", c_double), ("center", c_double * 3),
+                ("inertia", c_double * 6), ("beam", c_void_p), ("prescribed", c_int),
+                ("reserved", c_void_p * 3)]
+
+
+class ld_mstmm_end(Structure):
+    _fields_ = [("element", c_char_p), ("at", c_double * 3), ("attitude", c_double * 4)]
+
+
+class ld_mstmm_loop(Structure):
+    _fields_ = [("name", c_char_p), ("first", ld_mstmm_end), ("second", ld_mstmm_end),
+                ("joint", c_int), ("axis", c_double * 3), ("axis_2", c_double * 3),
+                ("stiffness", c_double * 6), ("damping", c_double * 6), ("rest", c_double * 2),
+                ("reserved", c_void_p * 4)]
+
+
+class ld_mstmm_description(Structure):
+    _fields_ = [("elements", POINTER(ld_mstmm_element)), ("element_count", c_int),
+                ("loop_count", c_int), ("loops", POINTER(ld_mstmm_loop)),
+                ("gravity", c_double * 3), ("reserved", c_void_p * 4)]
+
+
+class ld_mstmm_assembly(Structure):
+    _fields_ = [("iterations", c_int), ("freedoms", c_int), ("held", c_int),
+                ("redundant", c_int), ("gap", c_double), ("turn", c_double),
+                ("singularity", c_double)]
+
+
+class ld_mstmm_energies(Structure):
+    _fields_ = [("kinetic", c_double), ("potential", c_double), ("elastic", c_double)]
+
+
+class ld_mstmm_point(Structure):
+    _fields_ = [("position", c_double * 3), ("velocity", c_double * 3),
+                ("attitude", c_double * 4), ("rate", c_double * 3)]
+
+
+class ld_mstmm_mode(Structure):
+    _fields_ = [("frequency", c_double), ("damping", c_double), ("rate", c_double)]
+
+
+#: Of ld_mstmm_settings: gives drive forces; receives the state, other than 0 stops.
+MSTMM_DRIVE = CFUNCTYPE(None, c_double, POINTER(c_double), POINTER(c_double), POINTER(c_double),
+                        POINTER(c_double), c_void_p)
+MSTMM_SINK = CFUNCTYPE(c_int, c_double, POINTER(c_double), POINTER(c_double), c_void_p)
+
+
+class ld_mstmm_settings(Structure):
+    _fields_ = [("rtol", c_double), ("atol", c_double), ("output_step", c_double),
+                ("drive", MSTMM_DRIVE), ("sink", MSTMM_SINK), ("context", c_void_p),
+                ("motion", c_void_p), ("reserved", c_void_p * 3)]
+
+
 KEY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_key))
 QUANTITY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_quantity))
 
@@ -493,6 +550,24 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_comparison_note": (_text, [_handle, c_int]),
     "ld_comparison_print": (None, [_handle, c_void_p]),
     "ld_comparison_draw": (c_int, [_handle, _text, _error]),
+    # mstmm.h; arrays of numpy are a c_void_p
+    "ld_mstmm_build": (c_int, [POINTER(ld_mstmm_description), _handles, _error]),
+    "ld_mstmm_free": (None, [_handle]),
+    "ld_mstmm_coordinate_count": (c_int, [_handle]),
+    "ld_mstmm_speed_count": (c_int, [_handle]),
+    "ld_mstmm_reference": (None, [_handle, c_void_p]),
+    "ld_mstmm_assemble": (c_int, [_handle, c_void_p, c_void_p, c_void_p,
+                                  POINTER(ld_mstmm_assembly), _error]),
+    "ld_mstmm_accelerations": (c_int, [_handle, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p,
+                                       _error]),
+    "ld_mstmm_forces": (None, [_handle, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "ld_mstmm_energy": (ld_mstmm_energies, [_handle, c_void_p, c_void_p]),
+    "ld_mstmm_momentum": (None, [_handle, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "ld_mstmm_locate": (ld_mstmm_point, [_handle, c_void_p, c_void_p, c_int, c_void_p]),
+    "ld_mstmm_vibration": (c_int, [_handle, c_void_p, c_void_p, POINTER(ld_mstmm_mode), c_void_p,
+                                   POINTER(c_int), _error]),
+    "ld_mstmm_integrate": (c_int, [_handle, POINTER(ld_mstmm_settings), c_double, c_double,
+                                   c_void_p, c_void_p, c_void_p, _error]),
 }
 
 

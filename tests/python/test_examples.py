@@ -63,6 +63,8 @@ class Examples(Case):
             "fitted": fitted, "asking": asking, "optimum": ld.optimise(asking),
             "log": log, "compared": ld.compare(self.folder / "student", log),
             "error": caught.exception,
+            "pendulum": ld.Multibody([ld.Body("bob", hinge="revolute", axis=(0, 0, 1), mass=1,
+                                              center=(-1, 0, 0))]),
             "windy": flight.derive({"environment.wind.speed": "5 m/s"}),
         }
 

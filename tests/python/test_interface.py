@@ -14,7 +14,7 @@ PLAIN = re.sub(r"//.*", "", HEADERS)
 POINTER = "pointer"
 SCALARS = {"double": ctypes.c_double, "int": ctypes.c_int, "ld_status": ctypes.c_int,
            "ld_fmu_part": ctypes.c_int, "ld_event_kind": ctypes.c_int,
-           "ld_verdict": ctypes.c_int, "size_t": ctypes.c_size_t,
+           "ld_verdict": ctypes.c_int, "ld_hinge": ctypes.c_int, "size_t": ctypes.c_size_t,
            "bool": ctypes.c_bool, "int64_t": ctypes.c_int64,
            "unsigned char": ctypes.c_ubyte, "void": None}
 
