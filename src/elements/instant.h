@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "elements/exchange.h"
+#include "elements/initial_shape.h"
 #include "math/lanes.h"
 #include "math/vectors/rotation_vector.h"
 
@@ -34,6 +35,7 @@ typedef struct tube_system {
     flexible_tube flexible;
     packed_element *packed; // [flexible.element_count], 64-byte aligned, owned
     double gravity;         // [m/s2] along -y of I
+    initial_shape *initial; // of the guide, owned; NULL: it is straight
 
     // tube and tail, tail folded in
     double m, Sx;    // [kg], [kg m] of both
@@ -105,6 +107,7 @@ typedef struct element_motion {
     foreshortening before; // then: at x0
     bool sheared;
     double strain[2], strain_dot[2]; // then: by plane
+    const initial_shape *initial;    // of the guide; NULL: straight, or a section of the tube alone
 } element_motion;
 
 // A cubic with coefficients c of x^0..3, its first and its second derivative.

@@ -13,6 +13,7 @@ LD_INLINE void load_tip(const int lanes, const launching_load *self, const tube_
     double length = guide->flexible.length;
     tip.index = flexible_tube_find(&guide->flexible, length);
     element_load(guide, &now->tube.modal, tip.index, &motion);
+    motion.initial = NULL;
     section_load(guide, &motion, length, &tip);
     apply_at_section(lanes, guide, &tip, tip.P, self->tip_force, &now->on_tube);
     const v3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -63,9 +63,21 @@ LD_INLINE void element_load(const tube_system *self, const modal_state *q, int i
     motion->shortened = self->flexible.shortening != NULL;
     if (__builtin_expect(motion->shortened, 0))
         element_shorten(self, q, index, motion);
+    motion->initial = self->initial;
     motion->sheared = self->flexible.shear != NULL;
     if (__builtin_expect(motion->sheared, 0))
         element_shear(self, q, index, motion);
+}
+
+// Adds the guide's initial shape to a section. Out of line: most guides are straight.
+LD_OUTLINE void section_shape(const initial_shape *initial, double x, axis_section *s)
+{
+    initial_section at;
+    initial_shape_at(initial, x, &at);
+    s->P = s->root = v3_add(s->P, at.P);
+    s->t = v3_add(s->t, at.P1);
+    s->th = v3_add(s->th, at.th);
+    s->k0 = v3_add(s->k0, at.th1);
 }
 
 LD_INLINE void section_load(const tube_system *self, const element_motion *motion, double x,
@@ -86,6 +98,8 @@ LD_INLINE void section_load(const tube_system *self, const element_motion *motio
     s->k0 = v3_make(motion->t[1], -poly2(motion->z, xi), poly2(motion->y, xi));
     if (__builtin_expect(motion->sheared, 0))
         turn_less(motion->strain, &s->th);
+    if (__builtin_expect(motion->initial != NULL, 0))
+        section_shape(motion->initial, inside, s);
     rv_coefficients k = rv_coefficients_of(v3_norm2(s->th));
     double t2 = v3_norm2(s->th);
     m3 outer = m3_outer(s->th, s->th), skew = m3_skew(s->th);
@@ -139,6 +153,11 @@ LD_INLINE double section_gap(const tube_system *self, const element_motion *moti
     v3 th = v3_make(motion->t[0] + xi * motion->t[1], -poly1(motion->z, xi), poly1(motion->y, xi));
     if (__builtin_expect(motion->sheared, 0))
         turn_less(motion->strain, &th);
+    initial_section initial = {0};
+    if (__builtin_expect(motion->initial != NULL, 0)) {
+        initial_shape_at(motion->initial, inside, &initial);
+        th = v3_add(th, initial.th);
+    }
     rv_coefficients k = rv_coefficients_of(v3_norm2(th));
     v3 axis = v3_make(1 - k.b * (th.y * th.y + th.z * th.z), k.b * th.x * th.y + k.a * th.z,
                       k.b * th.x * th.z - k.a * th.y);
@@ -146,6 +165,8 @@ LD_INLINE double section_gap(const tube_system *self, const element_motion *moti
                    poly0(motion->z, xi));
     if (__builtin_expect(motion->shortened, 0))
         P.x += shortened_to(motion, xi).shift;
+    if (__builtin_expect(motion->initial != NULL, 0))
+        P = v3_add(P, initial.P);
     return v3_dot(axis, v3_sub(C, P)) - (x - inside);
 }
 

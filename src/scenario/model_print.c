@@ -170,7 +170,7 @@ static bool has_value(const field_row *f, const void *base)
     if (f->kind == FIELD_CORRELATED || f->kind == FIELD_UNTIL || f->kind == FIELD_SWEEP ||
         f->kind == FIELD_BOUNDS)
         return field_switch(base, f) > 0;
-    if (f->kind == FIELD_LIST && f->silent)
+    if (f->silent && (f->kind == FIELD_LIST || f->kind == FIELD_BLOCK))
         return field_switch(base, f) > 0;
     return true;
 }

@@ -155,6 +155,19 @@ static void describe_slide(FILE *stream, const ld_guide *guide)
     }
 }
 
+static void describe_initial_shape(FILE *stream, const ld_initial_shape *shape)
+{
+    const ld_table *table = &shape->offsets;
+    double most = 0;
+    for (size_t i = 0; i < table->rows; i++) {
+        const double *row = table->data + i * table->columns;
+        most = fmax(most, hypot(shape->scale[0] * row[1], shape->scale[1] * row[2]));
+    }
+    if (shape->present)
+        fprintf(stream, "#   bent by up to %s%s\n", MILLIMETRES(most),
+                table->columns > 3 ? ", and twisted" : "");
+}
+
 static void describe_guide(FILE *stream, const ld_model *model)
 {
     const ld_tubes *tubes = &model->tubes;
@@ -176,6 +189,7 @@ static void describe_guide(FILE *stream, const ld_model *model)
     fputc('\n', stream);
     if (guide->present)
         describe_slide(stream, guide);
+    describe_initial_shape(stream, &tubes->initial_shape);
     for (int i = 0; i < tubes->section_count; i++)
         describe_section(stream, &tubes->section[i], !guide->present);
 }

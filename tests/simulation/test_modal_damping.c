@@ -19,7 +19,7 @@ static void draw_round_tube(uint64_t *seed, ld_model *model)
     draw_random_model(*seed, model);
     model->base = (ld_base){.kind = LD_BASE_FIXED};
     ld_tubes *tubes = &model->tubes;
-    tubes->guide.present = false;
+    tubes->guide.present = tubes->initial_shape.present = false;
     bool same_dampers = chance(seed, 0.5);
     tubes->tail.inertia[2] = tubes->tail.inertia[1];
     for (int i = 0; i < tubes->section_count; i++)

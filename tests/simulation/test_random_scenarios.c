@@ -62,6 +62,9 @@ static const char *const kinds[] = {
     "tubes.modes={bending: 8, span: free-free, elements: 20, cut: 2 kHz}",
     "tubes.point_masses=[{at: 1 m, mass: 2 kg}, {at: 2.9 m, mass: 1 kg}]",
     "tubes.tail=",
+    "tubes.initial_shape.offsets=[[0 m, 0 mm, 0 mm, 0 deg], [1 m, 0.3 mm, -0.1 mm, 0.1 deg], [100 "
+    "m, "
+    "1 mm, 2 mm, 1 deg]]",
     "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
     "tubes.pressure={pressure: 2 MPa, volume: 0.03 m3, exponent: 1.4, ambient: 0.1 MPa}",
     "tubes.pressure={over_time: [[0 s, 0 MPa], [10 ms, 1 MPa], [0.1 s, 0.5 MPa]]}",

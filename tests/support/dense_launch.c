@@ -434,17 +434,63 @@ static jet3 section_turn(const jet_scene *scene, jet x)
     return phi;
 }
 
+// Of the guide's initial shape a column, or a derivative of it, at station x: the polynomial
+// through the table's two to four rows, which their spline is too.
+static jet initial_column(const ld_initial_shape *given, int column, int derivative, jet x)
+{
+    const ld_table *table = &given->offsets;
+    int rows = (int)table->rows, columns = (int)table->columns;
+    const double *row = table->data;
+    double c[4] = {0}, factor = column == 3 ? given->twist_scale : given->scale[column - 1];
+    for (int i = 0; i < rows && column < columns; i++) { // Lagrange
+        double basis[5] = {factor * row[i * columns + column]};
+        for (int j = 0, degree = 0; j < rows; j++) {
+            double at = row[j * columns], span = row[i * columns] - at;
+            if (j == i)
+                continue;
+            degree++;
+            for (int k = degree; k >= 0; k--)
+                basis[k] = ((k > 0 ? basis[k - 1] : 0) - at * basis[k]) / span;
+        }
+        for (int k = 0; k < rows; k++)
+            c[k] += basis[k];
+    }
+    for (int i = 0; i < derivative; i++)
+        for (int k = 0; k < 4; k++)
+            c[k] = k < 3 ? (k + 1) * c[k + 1] : 0;
+    jet sum = jet_constant(0), product;
+    for (int k = 3; k >= 0; k--) {
+        jet_product(&product, &sum, &x);
+        sum = jet_add(product, jet_constant(c[k]));
+    }
+    return sum;
+}
+
+// Moves and turns a section by it.
+static void add_initial_shape(const ld_initial_shape *given, jet x, jet3 *place, jet3 *phi)
+{
+    jet z1 = initial_column(given, 2, 1, x);
+    place->c[1] = jet_add(place->c[1], initial_column(given, 1, 0, x));
+    place->c[2] = jet_add(place->c[2], initial_column(given, 2, 0, x));
+    phi->c[0] = jet_add(phi->c[0], initial_column(given, 3, 0, x));
+    jet_increase(&phi->c[1], -1, &z1);
+    phi->c[2] = jet_add(phi->c[2], initial_column(given, 1, 1, x));
+}
+
+// What a section belongs to: the tube, or the guide with its initial shape.
+typedef enum section_of { OF_TUBE, OF_GUIDE } section_of;
+
 // Section frame at station s, in R; beyond the ends straight on along the end section's axis. The
 // margin keeps a place at the tip (to rounding) on the tube, whose curvature there need not be
 // zero.
-static jet_frame section_in_R(const jet_scene *scene, jet s)
+static jet_frame frame_in_R(const jet_scene *scene, section_of part, jet s)
 {
     jet_frame section;
     double length = scene->dense->tube->length;
     double end = s.v < 0 ? 0 : length;
     const double margin = 1e-9;
     if (s.v < -margin || s.v > length + margin) {
-        section = section_in_R(scene, jet_constant(end));
+        section = frame_in_R(scene, part, jet_constant(end));
         jet beyond = jet_sub(s, jet_constant(end));
         jet3 along = {{beyond, jet_constant(0), jet_constant(0)}};
         section.r = point_in(&section, &along);
@@ -454,8 +500,22 @@ static jet_frame section_in_R(const jet_scene *scene, jet s)
     section.r = axis_point(scene, s);
     if (is_shortened(scene))
         section.r.c[0] = jet_add(section.r.c[0], shortening_to(scene, s));
+    const ld_initial_shape *initial = &scene->dense->model->tubes.initial_shape;
+    if (part == OF_GUIDE && initial->present)
+        add_initial_shape(initial, s, &section.r, &phi);
     section.A = rotation_of(&phi);
     return section;
+}
+
+static jet_frame section_in_R(const jet_scene *scene, jet s)
+{
+    return frame_in_R(scene, OF_GUIDE, s);
+}
+
+static jet_frame tube_section_in_I(const jet_scene *scene, double at)
+{
+    jet_frame section = frame_in_R(scene, OF_TUBE, jet_constant(at));
+    return frame_in(&scene->R, &section);
 }
 
 static jet_frame section_in_I(const jet_scene *scene, jet s)
@@ -908,7 +968,7 @@ static void add_supports(equations *eq, const jet_scene *scene, const dense_cond
     int row = CLAMPED;
     for (int i = 0; i < tubes->support_count; i++) {
         const ld_support *support = &tubes->support[i];
-        jet_frame section = section_in_I(scene, jet_constant(support->at));
+        jet_frame section = tube_section_in_I(scene, support->at);
         jet3 d = seen_from(&base, &section.r);
         d.c[0] = jet_sub(d.c[0], jet_constant(support->at));
         jet33 turn = jet33_mul(&to_base, &section.A);
@@ -1534,7 +1594,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     // masses
     static const double none[3] = {0, 0, 0};
     const ld_tail *tail = &model->tubes.tail;
-    jet_frame rear = section_in_I(&moving, jet_constant(0));
+    jet_frame rear = tube_section_in_I(&moving, 0);
     add_tube(&eq, &moving);
     add_rigid(&eq, &rear, tail->mass, (double[]){tail->center, 0, 0}, tail->inertia, none,
               model->gravity);
@@ -1652,7 +1712,7 @@ void dense_launch_tip(const dense_launch *dense, const dense_state *state, const
 {
     jet_scene moving;
     scene_set(&moving, dense, state, dense->mode_count + 12);
-    jet_frame section = section_in_I(&moving, jet_constant(dense->tube->length));
+    jet_frame section = tube_section_in_I(&moving, dense->tube->length);
     jet_frame frame = base_frame(base);
     jet3 place = seen_from(&frame, &section.r), axis = jet33_column(&section.A, 0);
     axis = jet33_turn_back(&frame.A, &axis);

@@ -509,6 +509,53 @@ static void pressure_and_recoil_equal_dense(void **state)
     reference_model_free(&model);
 }
 
+// A guide that is not straight, of two to four rows, with and without twist, ending beyond the tip.
+static void shape_guide(int rows, int columns, ld_model *model)
+{
+    static const double given[4][4] = {{-0.2, 3e-3, -1e-3, 0.02},
+                                       {0.8, -2e-3, 4e-3, -0.03},
+                                       {2.1, 5e-3, 1e-3, 0.05},
+                                       {3.3, -1e-3, -6e-3, -0.01}};
+    double row[16];
+    ld_initial_shape *shape = &model->tubes.initial_shape;
+    free(shape->offsets.data);
+    for (int i = 0; i < rows; i++)
+        memcpy(row + i * columns, given[i + 1 < rows ? i : 3], (size_t)columns * sizeof *row);
+    *shape = (ld_initial_shape){.present = true,
+                                .scale = {1.5, -0.7},
+                                .twist_scale = 0.9,
+                                .offsets = reference_table((size_t)rows, (size_t)columns, row)};
+}
+
+static void initial_shape_equals_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    model.tubes.modes.bending = 4;
+    shape_guide(4, 4, &model);
+    check_agreement(&model, launching_evaluate, 200, "initial shape");
+    check_agreement(&model, launching_evaluate_general, 60, "initial shape, general");
+    check_agreement(&model, overall, 200, "initial shape, overall");
+    shape_guide(3, 3, &model);
+    model.tubes.slot.kind = LD_SLOT_NONE;
+    model.rocket.contact.law = LD_CONTACT_BILATERAL;
+    check_agreement(&model, launching_evaluate, 60, "initial shape, bilateral, no slot");
+    model.tubes.slot.kind = LD_SLOT_HELIX;
+    model.rocket.adaptor_count = 2;
+    model.rocket.contact.law = LD_CONTACT_IDEAL;
+    shape_guide(4, 4, &model);
+    check_agreement(&model, launching_evaluate, 60, "initial shape, ideal");
+    check_agreement(&model, overall, 60, "initial shape, ideal, overall");
+    model.tubes.support[0].clamped = 0x3f;
+    check_agreement(&model, launching_evaluate, 60, "initial shape, ideal, clamped");
+    model.tubes.support[0].clamped = 0;
+    model.tubes.modes.geometric_stiffness = LD_GEOMETRIC_YES;
+    model.tubes.modes.shear_coefficient = 0.5;
+    check_agreement(&model, launching_evaluate_general, 60, "initial shape, ideal, shear, P-delta");
+    reference_model_free(&model);
+}
+
 // The wider instructions give the same bits.
 static void wide_instructions_give_the_same_bits(void **state)
 {
@@ -553,6 +600,7 @@ int main(void)
         cmocka_unit_test(projection_stretches_the_tube),
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(pressure_and_recoil_equal_dense),
+        cmocka_unit_test(initial_shape_equals_dense),
         cmocka_unit_test(wide_instructions_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

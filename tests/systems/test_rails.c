@@ -89,6 +89,22 @@ static void draw_rail(uint64_t *seed, int form, ld_model *model)
     rocket->lock.angle = between(seed, -3, 3);
 }
 
+// A rail that is bent and twisted.
+static void draw_initial_shape(uint64_t *seed, ld_initial_shape *shape)
+{
+    enum { ROWS = 4 };
+    double row[ROWS][4];
+    for (int i = 0; i < ROWS; i++) {
+        row[i][0] = i * between(seed, 1, 1.2) - 0.1;
+        for (int k = 1; k < 4; k++)
+            row[i][k] = between(seed, -5e-3, 5e-3) * (k == 3 ? 8 : 1);
+    }
+    *shape = (ld_initial_shape){.present = true,
+                                .scale = {between(seed, -2, 2), between(seed, -2, 2)},
+                                .twist_scale = between(seed, -2, 2),
+                                .offsets = reference_table(ROWS, 4, row[0])};
+}
+
 // Coefficients over the Mach number, with a drag of the lateral speed, or a plain body.
 static void draw_air(uint64_t *seed, ld_aerodynamics *air)
 {
@@ -152,16 +168,18 @@ static double shoe_difference(const launching_system *system, const launching_ca
                               const launching_output *out, const dense_launch_output *dense)
 {
     const launching_layout *at = &system->layout;
-    launching_section section;
+    tube_section_state section;
+    const guide_station station = {&system->tube.flexible, system->tube.initial,
+                                   dense->contact[i].s};
     launching_pose pose;
     launching_output unused;
-    launching_section_at(system, c->state, dense->contact[i].s, &section);
+    guide_section(&station, v3_zero(), c->state + at->q, c->state + at->q_dot, &section);
     launching_rocket_pose(system, c->state, &pose, &unused);
-    m3 A = m3_mul(q_matrix(q_from(c->state + at->quaternion)), section.A);
+    m3 A = m3_mul(q_matrix(q_from(c->state + at->quaternion)), section.rotation);
     v3 F = m3_apply_transposed(A, v3_from(dense->contact[i].force));
     v3 M = m3_apply_transposed(A, v3_from(dense->contact[i].moment));
     v3 C = v3_add(pose.p1, v3_scale(system->adaptors.at[i], m3_column(pose.A_RB, 0)));
-    v3 arm = m3_apply_transposed(section.A, v3_sub(C, section.P));
+    v3 arm = m3_apply_transposed(section.rotation, v3_sub(C, section.position));
     double y = arm.y - system->surfaces.line_y, z = arm.z - system->surfaces.line_z;
     double worst = fabs(out->shoe[i].force_y - F.y) + fabs(out->shoe[i].force_z - F.z);
     worst = fmax(worst, fabs(out->shoe[i].moment_x - (M.x + y * F.z - z * F.y)));
@@ -265,7 +283,7 @@ static void shoes_equal_dense(void **state)
                                          launching_evaluate_overall};
     const char *asked = getenv("LD_RAIL_STATES");
     int states = asked ? atoi(asked) : 60, each = 5;
-    uint64_t seed = 15, weather = 16;
+    uint64_t seed = 15, weather = 16, bent = 17;
     for (int f = 0; f < 3; f++) {
         agreement worst[3] = {0};
         for (int n = 0; n < states; n += each) {
@@ -273,6 +291,8 @@ static void shoes_equal_dense(void **state)
             draw_rail(&seed, f, &model);
             if (n % 2)
                 draw_air(&weather, &model.rocket.aerodynamics);
+            if (n / each % 3 > 0)
+                draw_initial_shape(&bent, &model.tubes.initial_shape);
             compare_states(&model, evaluate, &seed, &weather, each, worst);
             reference_model_free(&model);
         }

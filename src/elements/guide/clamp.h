@@ -132,6 +132,7 @@ LD_INLINE int station_add(const int lanes, const tube_system *guide, const tube_
     constraint_section *section = &set->section[set->section_count];
     own->at.index = support->element;
     element_load(guide, &tube->modal, own->at.index, &own->motion);
+    own->motion.initial = NULL;
     section_load(guide, &own->motion, support->x, &own->at);
     section_rates_load(&own->motion, &own->at, &own->rates);
     section->motion = &own->motion;

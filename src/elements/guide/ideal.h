@@ -21,6 +21,11 @@ LD_INLINE v3 tangent_rate(const constraint_section *section)
         v3 bend = v3_make(0, poly2(motion->y, at->xi), poly2(motion->z, at->xi));
         if (__builtin_expect(motion->shortened, 0))
             bend.x = shortened_bend(motion, at->xi);
+        if (__builtin_expect(motion->initial != NULL, 0)) {
+            initial_section initial;
+            initial_shape_at(motion->initial, at->x, &initial);
+            bend = v3_add(bend, initial.P2);
+        }
         t_dot = v3_axpy(t_dot, section->s_dot, bend);
     }
     return v3_sub(t_dot, v3_cross(section->Om, at->t));

@@ -5,6 +5,7 @@
 #ifndef LD_ELEMENTS_TUBE_DYNAMICS_H
 #define LD_ELEMENTS_TUBE_DYNAMICS_H
 
+#include "elements/initial_shape.h"
 #include "elements/tube/flexible_tube.h"
 #include "math/vectors/mat3.h"
 
@@ -51,5 +52,15 @@ typedef struct tube_section_state {
 // rigid.
 void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, const double *q_dot,
                   tube_section_state *section);
+
+// A station of what guides a rocket, with its initial shape.
+typedef struct guide_station {
+    const flexible_tube *tube;
+    const initial_shape *initial; // NULL: straight
+    double x;
+} guide_station;
+
+void guide_section(const guide_station *at, v3 w, const double *q, const double *q_dot,
+                   tube_section_state *section);
 
 #endif

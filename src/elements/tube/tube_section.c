@@ -91,9 +91,11 @@ static void move_point(int n, v3 w, v3 arm, tube_section_state *section)
     }
 }
 
-void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, const double *q_dot,
-                  tube_section_state *section)
+void guide_section(const guide_station *at, v3 w, const double *q, const double *q_dot,
+                   tube_section_state *section)
 {
+    const flexible_tube *tube = at->tube;
+    double x = at->x;
     v3 Phi[LD_TUBE_MODES], Psi[LD_TUBE_MODES];
     int modes = tube_mode_count(tube), n = 6 + modes;
     double inside = x < 0 ? 0 : x > tube->length ? tube->length : x;
@@ -105,6 +107,12 @@ void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, co
     v3 p = combine(modes, Phi, q), u = combine(modes, Phi, q_dot);
     v3 th = combine(modes, Psi, q), th_dot = combine(modes, Psi, q_dot);
     p.x += inside - twice;
+    if (at->initial) {
+        initial_section initial;
+        initial_shape_at(at->initial, inside, &initial);
+        p = v3_add(p, initial.P);
+        th = v3_add(th, initial.th);
+    }
     m3 Jl = rv_left_jacobian(th);
     v3 spin = m3_apply(Jl, th_dot);
     section->position = p;
@@ -139,4 +147,10 @@ void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, co
     }
     if (x != inside)
         move_point(n, w, v3_scale(x - inside, m3_column(section->rotation, 0)), section);
+}
+
+void tube_section(const flexible_tube *tube, double x, v3 w, const double *q, const double *q_dot,
+                  tube_section_state *section)
+{
+    guide_section(&(guide_station){tube, NULL, x}, w, q, q_dot, section);
 }

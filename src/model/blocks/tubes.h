@@ -55,6 +55,14 @@ typedef struct ld_layout {
     double first[3]; ///< [m] rear end of tube 1, platform axes
 } ld_layout;
 
+/// How the unloaded guide departs from a straight line.
+typedef struct ld_initial_shape {
+    bool present;
+    ld_table offsets;   ///< x [m], y_0, z_0 [m], perhaps twist [rad]; cubic spline
+    double scale[2];    ///< [-] factors on y_0, z_0
+    double twist_scale; ///< [-] factor on the twist
+} ld_initial_shape;
+
 typedef struct ld_tubes {
     ld_layout layout;
     char on[LD_MAX_NAME]; ///< body that carries them (multibody)
@@ -75,6 +83,7 @@ typedef struct ld_tubes {
     ld_slot slot;
     ld_pressure pressure;
     ld_guide guide;
+    ld_initial_shape initial_shape;
 } ld_tubes;
 
 #endif

@@ -92,7 +92,7 @@ typedef struct field_row {
     size_t mark;             // selection: place of the mark in an entry
     int count;               // number: how many; list, integers: most entries
     int least;               // list, integers: fewest entries
-    bool silent;             // list: not printed where it is empty
+    bool silent;             // list, block with words: not printed where it is empty
     const char *unit;        // SI, "" without
     double initial;          // default in SI; NaN: none
     const double *initials;  // number: default of each, where they differ

@@ -860,6 +860,27 @@ static const field_block guide_block = {.fields = guide_fields,
                                         .form_offset = offsetof(ld_guide, form),
                                         .form_from_keys = true};
 
+static const field_row turned_offset_columns[] = {
+    {"station", .unit = "m", FROM_TO(-100, 200)},
+    {"y", .unit = "m", FROM_TO(-1, 1)},
+    {"z", .unit = "m", FROM_TO(-1, 1)},
+    {"twist", .unit = "rad", FROM_TO(-PI / 2, PI / 2)},
+};
+static const table_format turned_offset_table = {TABLE_CSV, 4, turned_offset_columns, NULL};
+static const table_format offset_table = {TABLE_CSV, 3, turned_offset_columns,
+                                          &turned_offset_table};
+static const field_row initial_shape_fields[] = {
+    {"offsets", TABLE(ld_initial_shape, offsets, offset_table), .required = true,
+     .doc = "of the guide from a straight line along the tube, over the station (cubic spline); "
+            "rows must reach from the rear end to the tip"},
+    {"scale", VECTOR(ld_initial_shape, scale, "", 2), FROM_TO(-1000, 1000), DEFAULT(1),
+     .doc = "factors on y and on z"},
+    {"twist_scale", NUMBER(ld_initial_shape, twist_scale, ""), FROM_TO(-1000, 1000), DEFAULT(1),
+     .doc = "factor on the twist"},
+    {0}};
+static const field_block initial_shape_block = {.fields = initial_shape_fields};
+static const field_word initial_shape_words[] = {{"straight", 0}, {"", 1}, {NULL, 0}};
+
 static const field_row tubes_fields[] = {
     {"on", WORD(ld_tubes, on), .initial_doc = "none",
      .doc = "body or beam of a base of kind multibody that carries them; on a beam each support "
@@ -895,6 +916,9 @@ static const field_row tubes_fields[] = {
     {"guide", BLOCK(ld_tubes, guide, guide_block), .initial_doc = "bore",
      SWITCH(ld_tubes, guide.present, guide_words), .other_is_bool = true,
      .doc = "guide of the rocket: the bore, or surfaces with the adaptors as shoes"},
+    {"initial_shape", BLOCK(ld_tubes, initial_shape, initial_shape_block), .silent = true,
+     .initial_doc = "straight", SWITCH(ld_tubes, initial_shape.present, initial_shape_words),
+     .other_is_bool = true, .doc = "how the unloaded guide departs from a straight line"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 

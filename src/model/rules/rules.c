@@ -502,6 +502,22 @@ static void thrust_rules(const rule_set *rules)
                       impulse);
 }
 
+static void initial_shape_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    const ld_table *table = &tubes->initial_shape.offsets;
+    rising_rule(rules, "tubes.initial_shape.offsets.#", table, "m", false);
+    if (!tubes->initial_shape.present || table->rows == 0)
+        return;
+    double last = table->data[table->columns * (table->rows - 1)];
+    if (table->data[0] > 0)
+        report_broken(rules, "tubes.initial_shape.offsets.1", 0,
+                      "begins at %g m; the rear end is at 0 m", table->data[0]);
+    if (last < tubes->length)
+        report_broken(rules, "tubes.initial_shape.offsets", 0, "ends at %g m; the tip is at %g m",
+                      last, tubes->length);
+}
+
 static void over_time_rules(const rule_set *rules)
 {
     const ld_table *table = &rules->model->tubes.pressure.over_time;
@@ -710,6 +726,7 @@ static void launch_rules(const rule_set *rules)
     support_rules(rules);
     recoil_rules(rules);
     slot_rules(rules);
+    initial_shape_rules(rules);
     adaptor_rules(rules);
     guide_rules(rules);
     contact_rules(rules);

@@ -162,6 +162,20 @@ static plausible_pair grip(const plausible_entry *at)
     return plausible_compare(contact->friction * normal, estimate_peak_thrust(at));
 }
 
+// The steepest slope of the initial shape between two rows, of y and z together.
+static plausible_pair initial_slope(const plausible_entry *at)
+{
+    const ld_initial_shape *shape = &at->model->tubes.initial_shape;
+    const ld_table *table = &shape->offsets;
+    double steepest = 0;
+    for (size_t i = 1; i < table->rows; i++) {
+        const double *to = table->data + i * table->columns, *from = to - table->columns;
+        double y = shape->scale[0] * (to[1] - from[1]), z = shape->scale[1] * (to[2] - from[2]);
+        steepest = fmax(steepest, hypot(y, z) / (to[0] - from[0]));
+    }
+    return plausible_alone(shape->present ? steepest : NAN);
+}
+
 // ---- slot
 
 #define BORE .other = "the bore's radius"
@@ -299,6 +313,9 @@ const plausible_rule plausible_of_tube[] = {
     {"rocket.adaptors", "the angle that the widest gap leaves between the outer shoes",
      .unit = "rad", NO_LOW, .high = 5 * PI / 180, .find = play, .of = "tubes.guide",
      .why = "shoes so close give little guidance"},
+    {"tubes.initial_shape.offsets", "its steepest slope between two rows", .unit = "", NO_LOW,
+     .high = 0.01, .find = initial_slope, .of = "tubes.initial_shape.scale",
+     .why = "guides are straight to a millimetre or two in a metre"},
     {"tubes.slot.radius", .unit = "m", BORE, .low = 0.5, .high = 2,
      .why = "the slot lies in the wall around the bore"},
     {"tubes.slot.angle", "its greatest angle", .unit = "rad", NO_LOW, .high = 45 * PI / 180,

@@ -57,11 +57,13 @@ static int works_of(const ld_model *model)
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
-        bool planes_differ =
-            key->offset == offsetof(ld_tubes, layout) || key->offset == offsetof(ld_tubes, empty) ||
-            key->offset == offsetof(ld_tubes, slot) ||
-            key->offset == offsetof(ld_tubes, pressure) ||
-            key->offset == offsetof(ld_tubes, guide) || key->offset == offsetof(ld_tubes, station);
+        bool planes_differ = key->offset == offsetof(ld_tubes, layout) ||
+                             key->offset == offsetof(ld_tubes, empty) ||
+                             key->offset == offsetof(ld_tubes, slot) ||
+                             key->offset == offsetof(ld_tubes, pressure) ||
+                             key->offset == offsetof(ld_tubes, guide) ||
+                             key->offset == offsetof(ld_tubes, initial_shape) ||
+                             key->offset == offsetof(ld_tubes, station);
         if (!planes_differ && !field_same(key, a, b))
             return false;
     }
@@ -176,6 +178,8 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
     self->work_count = works_of(model);
     status = pressure_build(tubes, &self->pressure, error);
     if (!status)
+        status = initial_shape_build(tubes, &self->tube.initial, error);
+    if (!status)
         status = build_cuts(self, error);
     if (status) {
         launching_free(self);
@@ -193,6 +197,8 @@ void launching_free(launching_system *self)
     free(self->tube.packed);
     self->tube.packed = NULL;
     pressure_free(&self->pressure);
+    initial_shape_free(self->tube.initial);
+    self->tube.initial = NULL;
     free(self->cut);
     self->cut = NULL;
 }

@@ -47,7 +47,9 @@ static void load_direction_forces(const launching_system *self, v3 w, const doub
     int n = 6 + self->layout.nq;
     for (int k = 0; k < set->section_count; k++) {
         tube_section_state section;
-        tube_section(&self->tube.flexible, set->section[k].at->x, w, q, q_dot, &section);
+        const constraint_section *on = &set->section[k];
+        const guide_station at = {&self->tube.flexible, on->motion->initial, on->at->x};
+        guide_section(&at, w, q, q_dot, &section);
         for (int i = 0; i < set->count; i++)
             if (set->e[i].section == k)
                 direction_force(n, &section, &set->e[i], B[i]);

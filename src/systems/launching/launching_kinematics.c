@@ -39,6 +39,7 @@ void launching_section_at(const launching_system *self, const double *state, dou
     modal_load(self->tube.flexible.nbp / 4, &self->tube, at, state, &modal);
     s.index = flexible_tube_find(&self->tube.flexible, x);
     element_load(&self->tube, &modal, s.index, &motion);
+    motion.initial = NULL;
     section_load(&self->tube, &motion, x, &s);
     section_rates_load(&motion, &s, &rates);
     out->P = s.P;

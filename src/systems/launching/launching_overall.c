@@ -26,7 +26,8 @@ static void load_relative(const launching_system *self, const double *state,
     tube_section_state at_rocket;
     v3 w = u->now.tube.w, Ad = rocket->Ad;
     double s_dot = rocket->s_dot;
-    tube_section(&self->tube.flexible, rocket->s, w, state + at->q, state + at->q_dot, &at_rocket);
+    const guide_station station = {&self->tube.flexible, rocket->motion.initial, rocket->s};
+    guide_section(&station, w, state + at->q, state + at->q_dot, &at_rocket);
     // X: the section's L, moved from its axis point to O1
     for (int j = 0; j < u->n; j++) {
         v3 a = v3_make(at_rocket.L[j], at_rocket.L[u->n + j], at_rocket.L[2 * u->n + j]);
@@ -56,6 +57,12 @@ static void load_relative(const launching_system *self, const double *state,
         if (rocket->motion.shortened)
             P2.x = shortened_bend(&rocket->motion, s->xi);
         Psi2 = v3_make(0, -6 * rocket->motion.z[3], 6 * rocket->motion.y[3]);
+        if (rocket->motion.initial) {
+            initial_section initial;
+            initial_shape_at(rocket->motion.initial, rocket->s, &initial);
+            P2 = v3_add(P2, initial.P2);
+            Psi2 = v3_add(Psi2, initial.th2);
+        }
     }
     v3 th_dot = v3_axpy(r->th_dot, s_dot, s->k0);
     v3 d_dot = m3_apply(s->A, v3_make(0, rocket->y_dot, rocket->z_dot));
