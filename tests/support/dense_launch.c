@@ -1569,6 +1569,45 @@ static void write_output(const dense_launch *dense, const dense_state *state, co
     }
 }
 
+// Drag of the guide on one adaptor, at its centre or amid the guide's surfaces.
+static void add_drag(equations *eq, const jet_scene *moving, const jet_scene *still,
+                     const dense_conditions *on, int index, double rear)
+{
+    const dense_launch *dense = moving->dense;
+    const ld_rocket *rocket = &dense->model->rocket;
+    const ld_table *drag = &rocket->contact.drag;
+    if (!drag->rows || on->locked || on->frictionless || on->passed[index])
+        return;
+    double force = drag->data[1];
+    for (size_t i = 1; i < drag->rows; i++) {
+        const double *a = drag->data + 2 * (i - 1), *b = a + 2;
+        double share = (rear - rocket->start_at - a[0]) / (b[0] - a[0]);
+        force += (b[1] - a[1]) * fmin(1, fmax(0, share));
+    }
+    jet3 center = jet3_constant((double[]){rocket->adaptor[index].at, 0, 0});
+    center = point_in(&moving->B, &center);
+    jet s = foot_of(moving, still, &center, rear + rocket->adaptor[index].at);
+    jet_frame section = section_in_I(moving, jet_constant(s.v));
+    double place[3], slip[3], W[2] = {0}, along = 0, f[3];
+    int surfaces = dense->surface_count / rocket->adaptor_count;
+    for (int k = 0; k < dense->surface_count; k++) {
+        W[0] += dense->surface[k].shoe == index ? dense->surface[k].y / surfaces : 0;
+        W[1] += dense->surface[k].shoe == index ? dense->surface[k].z / surfaces : 0;
+    }
+    for (int i = 0; i < 3; i++)
+        place[i] = !surfaces ? center.c[i].v
+                             : section.r.c[i].v + section.A.c[i][1].v * (dense->line[0] + W[0]) +
+                                   section.A.c[i][2].v * (dense->line[1] + W[1]);
+    slip_at(slip, moving, &section, place);
+    for (int i = 0; i < 3; i++)
+        along += slip[i] * section.A.c[i][0].v;
+    force *= rocket->contact.drag_scale / rocket->adaptor_count;
+    for (int i = 0; i < 3; i++)
+        f[i] = -force * along / hypot(along, rocket->contact.friction_speed) * section.A.c[i][0].v;
+    add_pair(eq->h, moving, &section, place, f);
+    add_pair(eq->other, moving, &section, place, f);
+}
+
 bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
                         const dense_conditions *conditions, dense_rates *rates,
                         dense_launch_output *output)
@@ -1606,6 +1645,8 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     for (int i = 0; i < rocket->adaptor_count; i++)
         (dense->surface_count ? add_shoe : add_adaptor)(&eq, &moving, &still, conditions, i,
                                                         state->s + rocket->adaptor[i].at, output);
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        add_drag(&eq, &moving, &still, conditions, i, state->s);
     add_thrust(&eq, &moving, conditions->thrust);
     // constraints
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;

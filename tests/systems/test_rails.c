@@ -87,6 +87,10 @@ static void draw_rail(uint64_t *seed, int form, ld_model *model)
     rocket->lock.x = between(seed, -0.5, 0.5);
     rocket->lock.radius = between(seed, 0, 0.2);
     rocket->lock.angle = between(seed, -3, 3);
+    uint64_t other = *seed + 1;
+    double drag[4] = {0.3, between(&other, 0, 1e4), 1.7, between(&other, 0, 1e4)};
+    rocket->contact.drag = reference_table((size_t)choice(&other, 3), 2, drag);
+    rocket->contact.drag_scale = between(&other, 0.5, 2);
 }
 
 // A rail that is bent and twisted.

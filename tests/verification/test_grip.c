@@ -1,5 +1,5 @@
-// Guides that grip: shoes pressed between opposite surfaces (a gap below 0) against closed forms of
-// a mass between two springs, on a rail that hardly gives.
+// Guides that grip: drag against its work; shoes pressed between opposite surfaces (a gap below 0)
+// against closed forms of a mass between two springs, on a rail that hardly gives.
 #include "model/model.h"
 #include "support/check.h"
 #include "support/launching_run.h"
@@ -145,12 +145,49 @@ static void preload_rubs(void **state)
     }
 }
 
+// Drag over the travel, a share on each adaptor until it is out: on the rail, in a bore. Constant
+// thrust and no weight give the exit speed by the works alone.
+static void drag_takes_its_work(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        ld_model model;
+        double thrust = 6e3, drag[6] = {0, 900, 0.8, 300, 2, 500}, scale = 1.3, loss = 0;
+        rail(&model, 1e8);
+        model.gravity = 0;
+        ld_rocket *rocket = &model.rocket;
+        if (n)
+            model.tubes.guide.present = false;
+        for (int i = 0; i < 2; i++)
+            rocket->adaptor[i].clearance = 0.1e-3;
+        model.tubes.guide.t_slot.gap = model.tubes.guide.t_slot.side_gap = 0;
+        rocket->motor.thrust.rows = 2;
+        memcpy(rocket->motor.thrust.data, (double[]){0, thrust, 5, thrust}, 4 * sizeof(double));
+        rocket->contact.drag = reference_table(3, 2, drag);
+        rocket->contact.drag_scale = scale;
+        ld_summary summary = summary_of_run(&model);
+        // the integral of the table, to 2 m and on at its last value
+        double way = model.tubes.length - rocket->start_at, front = way - rocket->adaptor[1].at;
+        double to_2m = 0.8 * 600 + 1.2 * 400, all = to_2m + (way - 2) * 500;
+        double to_front = 0.8 * 600 + (front - 0.8) * (300 + 0.5 * (front - 0.8) / 1.2 * 200);
+        loss = scale * (all + to_front) / 2;
+        double speed = sqrt(2 * (thrust * way - loss) / mass);
+        printf("  %s: %.1f J\n", n ? "bore" : "rail", loss);
+        CHECK_BELOW("work of the drag, relative",
+                    summary.energy.work[POWER_CONTACT_FRICTION] / -loss - 1, 5e-7);
+        CHECK_BELOW("exit speed, relative", summary.rocket[0].exit_speed / speed - 1, 2e-8);
+        CHECK_BELOW("energy balance, relative", summary.energy.residual_relative, 1e-9);
+        reference_model_free(&model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(springs_share_the_weight),
         cmocka_unit_test(springs_lift),
         cmocka_unit_test(preload_rubs),
+        cmocka_unit_test(drag_takes_its_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

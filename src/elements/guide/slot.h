@@ -24,8 +24,9 @@ typedef struct slot_frame {
     v3 n, tau, n_dot; // in S
 } slot_frame;
 
-// Slot angle at s and its derivative (linear between the table's points, constant outside).
-LD_INLINE double slot_angle_at(const ld_table *table, double s, double *slope)
+// Of a table of two columns the second at s and its derivative (linear between the table's points,
+// constant outside).
+LD_INLINE double table_linear_at(const ld_table *table, double s, double *slope)
 {
     *slope = 0;
     const double *row = table->data;
@@ -49,7 +50,7 @@ LD_INLINE void slot_load(const slot_system *self, const rocket_state *rocket, sl
     slot->r_E = r;
     double radius = sqrt(r.y * r.y + r.z * r.z);
     v3 e_t = v3_make(0, -r.z / radius, r.y / radius);
-    double slope, alpha = slot_angle_at(self->angle, rocket->s, &slope), sa, ca;
+    double slope, alpha = table_linear_at(self->angle, rocket->s, &slope), sa, ca;
     sine_cosine_small(alpha, &sa, &ca);
     slot->n = v3_make(-sa, ca * e_t.y, ca * e_t.z);
     slot->tau = v3_make(ca, sa * e_t.y, sa * e_t.z);

@@ -53,6 +53,9 @@ typedef struct ld_contact {
     double damping;               ///< [N s/m] c, of the laws kelvin-voigt and bilateral
     double friction;              ///< [-] mu
     double friction_speed;        ///< [m/s] v_eps, of tube contact and slot
+    ld_table drag;                ///< [m, N] of all adaptors in the guide over the travel from
+                                  ///< start_at; no rows: none
+    double drag_scale;            ///< [-] factor on it
 } ld_contact;
 
 #endif

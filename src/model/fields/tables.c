@@ -946,6 +946,11 @@ static const field_block adaptor_block = {.fields = adaptor_fields};
 
 #define LAW_WORD(name, word, traits) {word, name},
 static const field_word law_words[] = {LD_CONTACT_LAWS(LAW_WORD){NULL, 0}};
+static const field_row drag_columns[] = {
+    {"travel", .unit = "m", FROM_TO(0, 100)},
+    {"drag", .unit = "N", FROM_TO(0, 1e9)},
+};
+static const table_format drag_table = {TABLE_CONSTANT, 2, drag_columns, NULL};
 static const field_row contact_fields[] = {
     {"law", CHOICE(ld_contact, law, law_words), DEFAULT(0),
      .doc = "force over penetration; on the axis by springs (bilateral) or exactly (ideal)"},
@@ -966,6 +971,12 @@ static const field_row contact_fields[] = {
      .doc = "Coulomb coefficient (except bilateral, ideal)"},
     {"friction_speed", NUMBER(ld_contact, friction_speed, "m/s"), ABOVE_TO(0, 100), DEFAULT(0.01),
      .doc = "v_eps, speed at which friction reaches 71 %, in contact and slot"},
+    {"drag", TABLE(ld_contact, drag, drag_table), .initial_doc = "0",
+     .doc =
+         "force of the guide against sliding, constant or over the travel from start_at (linear, "
+         "constant outside); each adaptor in the guide takes an equal share"},
+    {"drag_scale", NUMBER(ld_contact, drag_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on `drag`"},
     {0}};
 static const field_block contact_block = {.fields = contact_fields};
 

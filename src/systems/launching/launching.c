@@ -35,6 +35,7 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
     const ld_tubes *tubes = model_tubes(self->model);
     adaptors_build(rocket, &self->adaptors);
     surfaces_build(&tubes->guide, rocket, &self->surfaces);
+    drag_build(rocket, &self->surfaces, &self->drag);
     slot_build(&tubes->slot, rocket, &self->slot);
     lock_build(&rocket->lock, self->slot.present || self->surfaces.flat, &self->lock);
     crossflow_build(&rocket->aerodynamics, &self->crossflow);

@@ -8,6 +8,7 @@
 #include "elements/guide/breech.h"
 #include "elements/guide/clamp.h"
 #include "elements/guide/crossflow.h"
+#include "elements/guide/drag.h"
 #include "elements/guide/guide_cut.h"
 #include "elements/guide/ideal.h"
 #include "elements/guide/line_pull.h"
@@ -30,6 +31,7 @@ typedef struct launching_system {
     support_set supports;
     adaptor_set adaptors;
     surface_set surfaces; // of a guide that is not a bore
+    drag_system drag;
     slot_system slot;
     lock_system lock;
     crossflow_body crossflow;

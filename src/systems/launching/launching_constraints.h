@@ -22,6 +22,12 @@ static __attribute__((noinline)) void launching_slide(const int lanes, const lau
     shoes_add(lanes, &self->surfaces, &self->adaptors, &self->tube, now);
 }
 
+static __attribute__((noinline)) void launching_drag(const int lanes, const launching_system *self,
+                                                     launching_instant *now)
+{
+    drag_add(lanes, &self->drag, &self->adaptors, &self->tube, now);
+}
+
 LD_INLINE void launching_touch(const int lanes, const launching_system *self,
                                launching_instant *now)
 {
@@ -46,6 +52,8 @@ LD_INLINE void launching_load_rocket(const int lanes, const launching_system *se
     if (input->load)
         load_rocket(input->load, now);
     launching_touch(lanes, self, now);
+    if (__builtin_expect(self->drag.given != NULL, 0))
+        launching_drag(lanes, self, now);
     breech_add(lanes, &self->adaptors.law, &self->tube, now);
     if (self->rocket->line.present)
         launching_draw(&self->rocket->line, now);
