@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "elements/exchange.h"
-#include "elements/initial_shape.h"
+#include "elements/tube/initial_shape.h"
 #include "math/lanes.h"
 #include "math/vectors/rotation_vector.h"
 

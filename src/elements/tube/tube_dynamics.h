@@ -5,8 +5,8 @@
 #ifndef LD_ELEMENTS_TUBE_DYNAMICS_H
 #define LD_ELEMENTS_TUBE_DYNAMICS_H
 
-#include "elements/initial_shape.h"
 #include "elements/tube/flexible_tube.h"
+#include "elements/tube/initial_shape.h"
 #include "math/vectors/mat3.h"
 
 enum { LD_TUBE_MODES = 2 * LD_NB + LD_NT + LD_NA, LD_TUBE_SPEEDS = 6 + LD_TUBE_MODES };

@@ -1,4 +1,4 @@
-#include "elements/initial_shape.h"
+#include "elements/tube/initial_shape.h"
 
 #include <stdlib.h>
 
