@@ -17,11 +17,13 @@ typedef struct drag_system {
     double y, z; // [m] W from the elastic axis, on surfaces
 } drag_system;
 
-// The share `force` of one adaptor.
+// The share of adaptor i.
 LD_INLINE void drag_adaptor(const int lanes, const drag_system *self, const adaptor_set *adaptors,
-                            const tube_system *guide, int i, double force, launching_instant *now)
+                            const tube_system *guide, int i, launching_instant *now)
 {
     const rocket_state *rocket = &now->rocket;
+    double slope, force = table_linear_at(&self->given->drag, rocket->s - self->start, &slope);
+    force *= self->given->drag_scale / adaptors->count;
     adaptor_state adaptor;
     adaptor_load(adaptors, guide, &now->tube, rocket, i, &adaptor);
     adaptor_rates(&now->tube, rocket, &adaptor);
@@ -44,13 +46,11 @@ LD_INLINE void drag_adaptor(const int lanes, const drag_system *self, const adap
 LD_INLINE void drag_add(const int lanes, const drag_system *self, const adaptor_set *adaptors,
                         const tube_system *guide, launching_instant *now)
 {
-    double slope, force = table_linear_at(&self->given->drag, now->rocket.s - self->start, &slope);
     if (now->phase->locked || now->phase->frictionless)
         return;
-    force *= self->given->drag_scale / adaptors->count;
     for (int i = 0; i < adaptors->count; i++)
         if (!now->phase->passed[i])
-            drag_adaptor(lanes, self, adaptors, guide, i, force, now);
+            drag_adaptor(lanes, self, adaptors, guide, i, now);
 }
 
 LD_INLINE void drag_build(const ld_rocket *rocket, const surface_set *surfaces, drag_system *self)
