@@ -343,12 +343,12 @@ static void draw_given_pressure(uint64_t seed, ld_model *model)
 // A guide that is bent by up to a millimetre a metre, and twisted.
 static void draw_initial_shape(uint64_t seed, ld_tubes *tubes)
 {
-    double row[4][4], length = tubes->length;
+    double row[16], length = tubes->length;
     int rows = 2 + choice(&seed, 3), columns = 3 + choice(&seed, 2);
     if (chance(&seed, 0.7))
         return;
     for (int i = 0; i < rows; i++) {
-        double *to = row[0] + i * columns;
+        double *to = row + i * columns;
         to[0] = length * i / (rows - 1);
         for (int k = 1; k < columns; k++)
             to[k] = between(&seed, -2e-4, 2e-4) * length / rows * (k < 3 ? 1 : 10);
@@ -357,7 +357,7 @@ static void draw_initial_shape(uint64_t seed, ld_tubes *tubes)
         (ld_initial_shape){.present = true,
                            .scale = {between(&seed, -2, 2), between(&seed, -2, 2)},
                            .twist_scale = between(&seed, -2, 2),
-                           .offsets = reference_table((size_t)rows, (size_t)columns, row[0])};
+                           .offsets = reference_table((size_t)rows, (size_t)columns, row)};
 }
 
 // Columns that every launch has, taken in all ways, between instants that every rocket has.

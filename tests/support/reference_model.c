@@ -86,7 +86,8 @@ static void fill_rocket(ld_rocket *rocket)
                                    .restitution = 0.5,
                                    .reference_speed = 0.5,
                                    .friction = 0.12,
-                                   .friction_speed = 0.01};
+                                   .friction_speed = 0.01,
+                                   .drag_scale = 1};
     // lock and motor
     rocket->lock = (ld_lock){.present = true, .release_force = 5e3};
     rocket->motor.thrust = reference_table(4, 2, (double[]){0, 0, 0.01, 15e3, 2.5, 15e3, 2.55, 0});
