@@ -1,4 +1,5 @@
 // Fits of a launcher whose keys are known: results come from its own launch, with noise.
+// ctest: slow
 #include "support/found_fit.h"
 
 #include "base/random.h"

@@ -1,5 +1,6 @@
 // Fits of a launcher whose keys are known to logs of its own launch: an accelerometer and a gyro
 // with noise, white or correlated, on a clock of their own.
+// ctest: slow
 #include "support/found_fit.h"
 
 #include "base/random.h"
