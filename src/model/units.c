@@ -206,7 +206,10 @@ units_result units_read(const char *text, double *factor, units_dimension *dimen
         result = read_product(text, &product, unknown);
     *factor = product.factor;
     memcpy(dimension->power, product.power, sizeof product.power);
-    return result == UNITS_OK && !isnormal(product.factor) ? UNITS_DIMENSION : result;
+    bool beyond = !isnormal(product.factor);
+    for (int i = 0; i < UNITS_BASES; i++)
+        beyond |= abs(product.power[i]) > UNITS_MOST_POWER;
+    return result == UNITS_OK && beyond ? UNITS_DIMENSION : result;
 }
 
 // Adds the base units with powers of one sign.

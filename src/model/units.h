@@ -9,7 +9,7 @@ typedef enum units_result {
     UNITS_OK,
     UNITS_SYNTAX,    // not of the form N.m/rad, m3, kg.m2/s
     UNITS_UNKNOWN,   // names a unit that there is not: see `unknown`
-    UNITS_DIMENSION, // of another dimension
+    UNITS_DIMENSION, // of another dimension, or beyond UNITS_MOST_POWER
 } units_result;
 
 // Powers of the base units m, kg, s, rad and K; each at most UNITS_MOST_POWER.

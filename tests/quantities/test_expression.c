@@ -241,6 +241,9 @@ static void test_refused(void **state)
         {"a^0.5", 2, "found the exponent 0.5; of what has a unit, expected -9 to 9, whole"},
         {"a^10", 2, "found the exponent 10; of what has a unit, expected -9 to 9, whole"},
         {"a^5 * a^5", 0, "\"a^5 * a^5\": powers of units beyond 9"},
+        {"1 km9.m", 2,
+         "found \"km9.m\" after a number; expected a unit, such as mrad/s, or an operator between "
+         "blanks"},
         {"a^a", 2, "found \"a\"; expected a number as exponent"},
         {"x^2^3", 3, "found \"^\"; expected an operator or the end"},
         {"q", 0, "\"q\": its unit kg0.5.m is not allowed in an expression"},
