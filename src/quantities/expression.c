@@ -5,11 +5,10 @@
 // Whole powers by multiplication, as one would write them.
 static double power_of(double x, double exponent)
 {
-    double product = x;
-    int whole = (int)fabs(exponent);
-    if (exponent != floor(exponent) || fabs(exponent) > UNITS_MOST_POWER || whole == 0)
+    double product = x, size = fabs(exponent);
+    if (exponent != floor(exponent) || size > UNITS_MOST_POWER || size == 0)
         return pow(x, exponent);
-    for (int i = 1; i < whole; i++)
+    for (int i = 1; i < (int)size; i++)
         product *= x;
     return exponent < 0 ? 1 / product : product;
 }
