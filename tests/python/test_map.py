@@ -87,7 +87,8 @@ class TestMap(Case):
             return pools[-1]
 
         def kill(counts):
-            if len(killed) < 4 and counts.done >= 500 * (len(killed) + 1):
+            due = 500 * (len(killed) + 1)
+            if len(killed) < 4 and len(pools) > len(killed) and counts.done >= due:
                 killed.append(next(iter(pools[-1]._processes)))
                 os.kill(killed[-1], signal.SIGKILL)
         data = self.study.map(make, self.folder / "mapped", progress=kill)
@@ -96,17 +97,17 @@ class TestMap(Case):
 
     def test_a_process_killed_while_it_answers(self):
         self.study = ld.Study.of(flights(3000))
-        pools = []
+        pools, killed = [], []
 
         def make():
             pools.append(ProcessPoolExecutor(1))
             return pools[-1]
 
         def cut(counts):
-            if len(pools) == 1:  # what is left of an answer whose process was killed
-                pool = pools[0]
-                os.write(pool._result_queue._writer.fileno(), b"\0\0\x10\0half")
-                os.kill(next(iter(pool._processes)), signal.SIGKILL)
+            if not killed:  # once: what is left of an answer whose process was killed
+                killed.extend(pools[0]._processes)
+                os.write(pools[0]._result_queue._writer.fileno(), b"\0\0\x10\0half")
+                os.kill(killed[0], signal.SIGKILL)
         with mock.patch.object(_mapping, "SILENCE", 1.0):
             data = self.study.map(make, self.folder / "mapped", progress=cut)
         self.assertEqual(len(pools), 2)

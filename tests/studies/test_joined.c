@@ -43,8 +43,27 @@ typedef struct worker_log {
 static worker_log *logs; // [MOST], shared
 static pid_t worker[MOST];
 
+// Where processes wait for a kill that is due: once `count` of them have run `samples`, each goes
+// on slowly, so that none ends the study before it is killed, whatever the machine's load.
+typedef struct due_kill {
+    int count;
+    int64_t samples;
+} due_kill;
+
+static due_kill *due; // shared
+
+static int64_t run_by_all(int count)
+{
+    int64_t run = 0;
+    for (int i = 0; i < count; i++)
+        run += logs[i].counts.now;
+    return run;
+}
+
 static bool until_told(void *self)
 {
+    if (due->count && run_by_all(due->count) >= due->samples)
+        usleep(50000);
     return getppid() == *(pid_t *)self; // with the test its processes end
 }
 
@@ -72,14 +91,6 @@ static bool wait_for(int number)
     if (!WIFSIGNALED(status) && status != 0)
         fail_msg("process %d: %s", number, logs[number].reason);
     return WIFSIGNALED(status);
-}
-
-static int64_t run_by_all(int count)
-{
-    int64_t run = 0;
-    for (int i = 0; i < count; i++)
-        run += logs[i].counts.now;
-    return run;
 }
 
 // How many samples a folder keeps, with the sum of their digests and that of what is said once.
@@ -129,10 +140,17 @@ static int64_t flights_wanted(void)
     return getenv("LD_JOINED_FLIGHTS") ? atoll(getenv("LD_JOINED_FLIGHTS")) : 20000;
 }
 
-// Kills process `victim` when all have run `after` samples, unless it is over by then.
-static bool kill_after(int victim, int processes, int64_t after, int64_t samples)
+// The instant of kill `i`: each in its turn, by chance, all in the first 85 %.
+static int64_t kill_instant(int i, int kills, int64_t samples)
 {
-    while (run_by_all(processes) < after && run_by_all(processes) < samples)
+    double share = (i + random_uniform(21, 0, (uint64_t)i, 0, 0)) * 0.85 / kills;
+    return (int64_t)(share * (double)samples);
+}
+
+// Kills process `victim` when all have run the samples that are due.
+static bool kill_when_due(int victim)
+{
+    while (run_by_all(due->count) < due->samples)
         usleep(1000);
     kill(worker[victim], SIGKILL);
     return wait_for(victim);
@@ -146,13 +164,13 @@ static void test_killed(void **state)
     const double expiry = 20; // [s] longer than a machine under load keeps a process waiting
     ld_study *study = flights(samples);
     int killed = 0;
+    *due = (due_kill){PROCESSES, kill_instant(0, KILLS, samples)};
     for (int i = 0; i < PROCESSES; i++)
         start(study, "joined", i, expiry);
-    for (int i = 0; i < KILLS; i++) // each third one, in an order of chance, in the first 85 %
-        killed += kill_after(3 * i + 1, PROCESSES,
-                             (int64_t)((i + random_uniform(21, 0, (uint64_t)i, 0, 0)) * 0.85 /
-                                       KILLS * (double)samples),
-                             samples);
+    for (int i = 0; i < KILLS; i++) { // each third one
+        killed += kill_when_due(3 * i + 1);
+        due->samples = i + 1 < KILLS ? kill_instant(i + 1, KILLS, samples) : INT64_MAX;
+    }
     for (int i = 0; i < PROCESSES; i++)
         if (i % 3 != 1 || i / 3 >= KILLS)
             wait_for(i);
@@ -196,15 +214,16 @@ static void test_keepers_killed(void **state)
     ld_study *study = flights(samples);
     bool gone[PROCESSES] = {false};
     int kills = 0;
+    *due = (due_kill){PROCESSES, 2000};
     for (int i = 0; i < PROCESSES; i++)
         start(study, "keepers", i, 2);
-    for (int64_t after = 2000; kills < KILLS && run_by_all(PROCESSES) < samples; usleep(1000)) {
-        for (int i = 0; i < PROCESSES && run_by_all(PROCESSES) >= after; i++)
+    for (; kills < KILLS && run_by_all(PROCESSES) < samples; usleep(1000)) {
+        for (int i = 0; i < PROCESSES && run_by_all(PROCESSES) >= due->samples; i++)
             if (!gone[i] && is_keeper(worker[i], "keepers")) {
                 kill(worker[i], SIGKILL);
                 gone[i] = wait_for(i);
                 kills += gone[i];
-                after = run_by_all(PROCESSES) + 2000;
+                due->samples = kills < KILLS ? run_by_all(PROCESSES) + 2000 : INT64_MAX;
             }
     }
     for (int i = 0; i < PROCESSES; i++)
@@ -378,11 +397,18 @@ static void test_ranges(void **state)
     ld_study_free(ruled);
 }
 
+static void *shared_memory(size_t size)
+{
+    void *memory = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    assert_true(memory != MAP_FAILED);
+    return memory;
+}
+
 static int make_logs(void **state)
 {
-    logs =
-        mmap(NULL, MOST * sizeof *logs, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    return logs == MAP_FAILED ? -1 : scratch_make(state);
+    logs = shared_memory(MOST * sizeof *logs);
+    due = shared_memory(sizeof *due);
+    return scratch_make(state);
 }
 
 int main(void)
