@@ -475,6 +475,15 @@ static void test_study_footprints(void **state)
                          "'.points[0].footprints'"),
                      0);
     assert_string_equal(shell.out, "[]\n");
+    assert_int_equal(
+        run("launchdyn study examples/line-thrower.yaml --set "
+            "'environment.wind={speed: 5 m/s, heading: 90 deg}' --set "
+            "'scatter={samples: 4, factors: {tubes.pressure.scale: {normal: 2 %}}}' -q --out "
+            "thrown && launchdyn study show thrown --json | jq -c '.points[0] | "
+            "(.footprints, .line_footprints) | length, .[0].needed' && launchdyn study show thrown "
+            "| grep -A 2 'where the line lies; 48 places of lines' | tail -n 1"),
+        0);
+    assert_non_null(strstr(shell.out, "3\n180\n3\n180\n95 %     too few places of lines: 180 "));
     expect_complaint("launchdyn study show safe --footprint a.kml", 2,
                      "--footprint requires study export DIR");
     expect_complaint("launchdyn study examples/range-safety.yaml --footprint a.kml --out y", 2,

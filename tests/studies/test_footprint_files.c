@@ -59,16 +59,17 @@ typedef struct corner {
     double x, z;
 } corner;
 
-// Corners of a share in the table; how many.
-static int read_corners(const char *csv, double share, corner *to)
+// Corners of a share of the kind in the table; how many.
+static int read_corners(const char *csv, const char *kind, double share, corner *to)
 {
     int count = 0;
     for (const char *line = strchr(csv, '\n') + 1; *line; line = strchr(line, '\n') + 1) {
+        char word[16];
         double of;
         corner c;
-        if (sscanf(line, "1,%lf,%*f,%*f,%*f,%*f,%*d,%d,%d,%lf,%lf", &of, &c.line, &c.hole, &c.x,
-                   &c.z) == 5 &&
-            of == share && count < MOST)
+        if (sscanf(line, "1,%15[a-z],%lf,%*f,%*f,%*f,%*f,%*d,%d,%d,%lf,%lf", word, &of, &c.line,
+                   &c.hole, &c.x, &c.z) == 6 &&
+            strcmp(word, kind) == 0 && of == share && count < MOST)
             to[count++] = c;
     }
     return count;
@@ -96,6 +97,16 @@ static bool is_within(const corner *all, int count, double x, double z)
 
 static corner corners[MOST];
 
+static double corners_area(int count)
+{
+    double area = 0;
+    for (int i = 0; i < count; i++) {
+        const corner *a = &corners[i], *b = next_of(corners, count, i);
+        area += 0.5 * (a->x * b->z - b->x * a->z);
+    }
+    return area;
+}
+
 // The landings lie within as often as is said; area and farthest point are those of the table.
 static void test_csv(void **state)
 {
@@ -106,13 +117,10 @@ static void test_csv(void **state)
     const ld_study_values *values;
     const ld_study_footprint *region;
     char *text = export("out", "a.csv");
-    int count = read_corners(text, 0.95, corners), within = 0;
-    double area = 0, farthest = 0;
-    for (int i = 0; i < count; i++) {
-        const corner *a = &corners[i], *b = next_of(corners, count, i);
-        area += 0.5 * (a->x * b->z - b->x * a->z);
-        farthest = fmax(farthest, hypot(a->x, a->z));
-    }
+    int count = read_corners(text, "landings", 0.95, corners), within = 0;
+    double area = corners_area(count), farthest = 0;
+    for (int i = 0; i < count; i++)
+        farthest = fmax(farthest, hypot(corners[i].x, corners[i].z));
     assert_int_equal(ld_study_data_open(in("out"), &data, &error), LD_OK);
     assert_int_equal(ld_study_data_values(data, 1, names, 2, &values, &error), LD_OK);
     assert_int_equal(values->count, SAMPLES);
@@ -132,12 +140,77 @@ static void test_csv(void **state)
     assert_int_equal(ld_study_data_footprint(data, 1, 0.999, &region, &error), LD_OK);
     assert_true(!region->stated && isnan(region->area.value) && isnan(region->content.low));
     assert_true(region->independent == 300 && region->needed == 9000);
-    assert_non_null(strstr(text, "\n1,0.99,,,900,300,,,,,\n1,0.999,,,9000,300,,,,,\n"));
+    assert_non_null(strstr(text, "\n1,landings,0.99,,,900,300,,,,,\n"
+                                 "1,landings,0.999,,,9000,300,,,,,\n"));
     assert_int_equal(ld_study_data_footprint(data, 1, 0.5, &region, &error), LD_ERR_INPUT);
     assert_non_null(strstr(error.text, "they are of 0.95, 0.99 and 0.999"));
     assert_int_equal(ld_study_data_footprint(data, 2, 0.95, &region, &error), LD_ERR_INPUT);
     assert_null(region);
     ld_study_data_close(data);
+    free(text);
+}
+
+// ---- of the line
+
+static const char thrower[] =
+    "include: flight.yaml\n"
+    "environment: {wind: {speed: 3 m/s, heading: 90 deg}}\n"
+    "rocket:\n"
+    "  motor: {thrust: [[0 s, 0 N], [0.1 s, 1 N], [0.2 s, 0 N]]}\n"
+    "  empty: {mass: 59.9 kg, center: 1.1 0 0 m, inertia: 0.22 24 24 kg.m2}\n"
+    "  line: {length: 60 m, mass_per_length: 20 g/m, diameter: 4 mm, stiffness: 2 kN,\n"
+    "         breaking_force: 1.5 kN, tension: 3 N, segments: 6, container: 1 0 2 m}\n"
+    "flight: {ignition: 0 s, velocity: 25 15 0 m/s, attitude: {pitch: 30 deg}, rate: 0 0 0 rad/s}\n"
+    "scatter:\n"
+    "  samples: 120\n"
+    "  factors:\n"
+    "    flight.velocity.x: {normal: 4 m/s}\n"
+    "    environment.wind.heading: {normal: 40 deg}\n"
+    "    environment.wind.speed: {normal: 1 m/s}\n";
+
+// That of all 12 places of each line, read one by one, a line a group.
+static void test_line(void **state)
+{
+    (void)state;
+    enum { LINES = 120, PLACES = 12 };
+    static double x[LINES * PLACES], z[LINES * PLACES];
+    static int64_t group[LINES * PLACES];
+    static footprint of;
+    ld_error error;
+    ld_study_data *data;
+    ld_study *study = study_of(thrower);
+    study_run(study, "thrown", 2);
+    char *text = export("thrown", "t.csv");
+    assert_int_equal(ld_study_data_open(in("thrown"), &data, &error), LD_OK);
+    for (int place = 0; place < PLACES; place++) {
+        char name[2][16];
+        const char *const names[] = {name[0], name[1]};
+        const ld_study_values *values;
+        snprintf(name[0], sizeof name[0], "line.%d.x", place + 1);
+        snprintf(name[1], sizeof name[1], "line.%d.z", place + 1);
+        assert_int_equal(ld_study_data_values(data, 1, names, 2, &values, &error), LD_OK);
+        assert_int_equal(values->count, LINES);
+        for (int i = 0; i < LINES; i++) {
+            x[i * PLACES + place] = values->value[0][i];
+            z[i * PLACES + place] = values->value[1][i];
+            group[i * PLACES + place] = i;
+        }
+    }
+    assert_int_equal(footprint_of(x, z, group, (size_t)(LINES * PLACES), &of), LD_OK);
+    int count = read_corners(text, "line", 0.95, corners), within = 0;
+    for (int i = 0; i < LINES * PLACES; i++)
+        within += is_within(corners, count, x[i], z[i]);
+    CHECK_WITHIN("places of lines within 95 % [%]", 100.0 * within / (LINES * PLACES), 93, 97);
+    CHECK_NEAR("area of the line's footprint", corners_area(count) / of.region[0].area.value, 1,
+               1e-12);
+    CHECK_WITHIN("places of a line, worth independent ones", of.region[0].independent / LINES, 2,
+                 3.5);
+    char row[96];
+    snprintf(row, sizeof row, "\n1,line,0.999,,,9000,%.17g,", of.region[2].independent);
+    assert_non_null(strstr(text, row));
+    assert_non_null(strstr(text, "\n1,landings,0.95,,,180,120,"));
+    ld_study_data_close(data);
+    ld_study_free(study);
     free(text);
 }
 
@@ -169,7 +242,7 @@ static void test_places(void **state)
     static double json[MOST][2], kml[MOST][2];
     char *csv = export("out", "b.csv"), *geojson = export("out", "b.geojson");
     char *map = export("out", "b.kml");
-    int count = read_corners(csv, 0.95, corners);
+    int count = read_corners(csv, "landings", 0.95, corners);
     const char *from = strstr(geojson, "[[[["), *to = strstr(from, "]]]]");
     int places = read_places(from, to, json);
     double s = sin(pi / 4), e2 = 6.69437999014e-3, w = 1 - e2 * s * s, off = 0, area = 0;
@@ -188,8 +261,9 @@ static void test_places(void **state)
         area += 0.5 * (json[i][0] * json[i + 1][1] - json[i + 1][0] * json[i][1]);
     assert_true(area > 0);
     assert_memory_equal(json[0], json[first - 1], sizeof json[0]);
-    assert_non_null(strstr(geojson, "\"geometry\":null,\"properties\":{\"share\":0.99,"));
-    assert_non_null(strstr(geojson, "\"stated\":false,\"landings\":300,\"independent\":300,"));
+    assert_non_null(strstr(geojson, "\"geometry\":null,\"properties\":{"
+                                    "\"of\":\"landings\",\"share\":0.99,"));
+    assert_non_null(strstr(geojson, "\"stated\":false,\"count\":300,\"independent\":300,"));
     const char *outline = strstr(map, "<outerBoundaryIs>");
     assert_int_equal(read_places(outline, strstr(outline, "</outer"), kml), first);
     assert_memory_equal(kml, json, (size_t)first * sizeof *kml);
@@ -381,9 +455,10 @@ static void test_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_csv),         cmocka_unit_test(test_places),
-        cmocka_unit_test(test_hole),        cmocka_unit_test(test_antimeridian),
-        cmocka_unit_test(test_round_earth), cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_csv),          cmocka_unit_test(test_line),
+        cmocka_unit_test(test_places),       cmocka_unit_test(test_hole),
+        cmocka_unit_test(test_antimeridian), cmocka_unit_test(test_round_earth),
+        cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, make_study, scratch_remove);
 }

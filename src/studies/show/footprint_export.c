@@ -19,12 +19,14 @@ typedef struct footprint_writer {
     const study_data *data;
     const study_point *point;
     footprint_site site;
+    footprint_kind kind;
     footprint of;
     study_values values;
     const char *moving;    // key of the site that is swept or drawn; NULL: none
     bool placed;           // the site says where on the Earth it is
     int stated;            // regions of all points
-    footprint_region best; // of 95 %, of the point with the most landings
+    footprint_region best; // of 95 %, of the point with the most landings or places
+    footprint_kind best_kind;
 } footprint_writer;
 
 // A region that is written: its numbers, its shape in metres and, where it is placed, on the Earth.
@@ -41,11 +43,17 @@ typedef struct footprint_format {
     void (*end)(footprint_writer *self);
 } footprint_format;
 
+// What the regions are of, in a file's words.
+static const char *const kind_word[FOOTPRINT_KINDS] = {
+    [FOOTPRINT_LANDINGS] = "landings", [FOOTPRINT_LINE] = "line"};
+static const char *const kind_told[FOOTPRINT_KINDS] = {
+    [FOOTPRINT_LANDINGS] = "landings", [FOOTPRINT_LINE] = "places of a line"};
+
 // ---- CSV: a line for each corner
 
 static void begin_csv(footprint_writer *self)
 {
-    fputs("point,share,content_low,content_high,needed,independent,polygon,line,hole,downrange "
+    fputs("point,of,share,content_low,content_high,needed,independent,polygon,line,hole,downrange "
           "[m],drift [m]\n",
           self->stream);
 }
@@ -67,7 +75,8 @@ static void region_csv(footprint_writer *self, const footprint_item *item)
         const footprint_line *line = region->stated ? &item->flat->line[i] : NULL;
         polygon += line && !line->hole;
         for (size_t k = 0; k < (line ? line->count : 1); k++) {
-            fprintf(stream, "%" PRId64 ",%g,", self->point->number, region->share);
+            fprintf(stream, "%" PRId64 ",%s,%g,", self->point->number, kind_word[self->kind],
+                    region->share);
             csv_number(stream, region->content.low, ",");
             csv_number(stream, region->content.high, ",");
             fprintf(stream, "%.17g,%.17g,", region->needed, region->independent);
@@ -92,7 +101,7 @@ static void write_name(footprint_writer *self, const footprint_region *region,
                        void (*write)(FILE *stream, const char *text))
 {
     char text[64];
-    snprintf(text, sizeof text, "%.3g %% of landings", 100 * region->share);
+    snprintf(text, sizeof text, "%.3g %% of %s", 100 * region->share, kind_told[self->kind]);
     write(self->stream, text);
     for (int k = 0; k < self->data->swept_count; k++) {
         write(self->stream, ", ");
@@ -145,17 +154,17 @@ static void region_kml(footprint_writer *self, const footprint_item *item)
     const footprint_region *region = item->region;
     FILE *stream = self->stream;
     char why[128];
-    footprint_why_not(region, why);
+    footprint_why_not(self->kind, region, why);
     const char *of = colour[(region - self->of.region) % FOOTPRINT_SHARES];
     fputs("<Placemark>\n<name>", stream);
     write_name(self, region, kml_write_text);
     if (region->stated)
         fprintf(stream,
-                "</name>\n<description>%.4g to %.4g %% of further landings lie within (95 %% "
-                "interval); from %zu landings, worth %.6g independent ones; %.6g m2, at most %.6g "
+                "</name>\n<description>%.4g to %.4g %% of further %s lie within (95 %% "
+                "interval); from %zu, worth %.6g independent ones; %.6g m2, at most %.6g "
                 "m from the launch point</description>\n",
-                100 * region->content.low, 100 * region->content.high, self->of.count,
-                region->independent, region->area.value, region->distance.value);
+                100 * region->content.low, 100 * region->content.high, kind_told[self->kind],
+                self->of.count, region->independent, region->area.value, region->distance.value);
     else
         fprintf(stream, "</name>\n<description>%s</description>\n", why);
     fprintf(stream,
@@ -205,15 +214,15 @@ static void geojson_estimate(FILE *stream, const char *name, const estimate *e)
 static void geojson_properties(footprint_writer *self, const footprint_region *region)
 {
     FILE *stream = self->stream;
-    fprintf(stream, "\"properties\":{\"share\":%g,\"point\":%" PRId64, region->share,
-            self->point->number);
+    fprintf(stream, "\"properties\":{\"of\":\"%s\",\"share\":%g,\"point\":%" PRId64,
+            kind_word[self->kind], region->share, self->point->number);
     for (int k = 0; k < self->data->swept_count; k++) {
         fputc(',', stream);
         json_write_text(stream, self->data->swept[k]);
         fputc(':', stream);
         json_write_text(stream, self->point->text[k]);
     }
-    fprintf(stream, ",\"stated\":%s,\"landings\":%zu,\"independent\":%.17g,\"needed\":%.17g",
+    fprintf(stream, ",\"stated\":%s,\"count\":%zu,\"independent\":%.17g,\"needed\":%.17g",
             region->stated ? "true" : "false", self->of.count, region->independent, region->needed);
     geojson_estimate(stream, "content", &region->content);
     geojson_estimate(stream, "area_m2", &region->area);
@@ -289,18 +298,15 @@ static ld_status write_region(footprint_writer *self, int index, ld_error *error
 
 static ld_status write_point(footprint_writer *self, const study_point *point, ld_error *error)
 {
-    const study_column *column[2];
-    const char *nearest;
-    for (int k = 0; k < 2; k++)
-        column[k] = study_data_find(self->data, study_pairs[STUDY_LANDING].name[k], &nearest);
     self->point = point;
-    ld_status status = study_data_read(self->data, point, column, 2, &self->values, error);
-    if (!status && footprint_of_values(&self->values, &self->of))
-        status = no_memory(error);
+    ld_status status =
+        footprint_read(self->data, point, self->kind, &self->values, &self->of, error);
     for (int k = 0; k < FOOTPRINT_SHARES && !status && !self->of.on_line; k++)
         status = write_region(self, k, error);
-    if (self->of.region[0].independent > self->best.independent)
+    if (!status && self->of.region[0].independent > self->best.independent) {
         self->best = self->of.region[0];
+        self->best_kind = self->kind;
+    }
     return status;
 }
 
@@ -313,11 +319,14 @@ static ld_status write_all(void *writer, FILE *stream, ld_error *error)
     self->stream = stream;
     self->format->begin(self);
     for (int i = 0; i < data->point_count && !status; i++)
-        status = write_point(self, &data->point[i], error);
+        for (int kind = 0; kind < FOOTPRINT_KINDS && !status; kind++) {
+            self->kind = (footprint_kind)kind;
+            status = write_point(self, &data->point[i], error);
+        }
     self->format->end(self);
     if (status || self->stated > 0)
         return status;
-    footprint_why_not(&self->best, why);
+    footprint_why_not(self->best_kind, &self->best, why);
     if (self->best.needed > 0)
         return ld_fail(error, LD_ERR_INPUT, "no footprint, not even of 95 %%: %s", why);
     return ld_fail(error, LD_ERR_INPUT,

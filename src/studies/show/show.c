@@ -186,12 +186,16 @@ static ld_status print_ellipses(shown *self, const study_point *point, ld_error 
 
 // ---- footprints
 
-static void print_footprint(FILE *stream, const footprint *of)
+static void print_footprint(FILE *stream, footprint_kind kind, const footprint *of)
 {
+    static const char *const told[FOOTPRINT_KINDS][3] = {
+        [FOOTPRINT_LANDINGS] = {"where landings lie", "rockets", "the launch point"},
+        [FOOTPRINT_LINE] = {"where the line lies", "places of lines", "the origin of I"}};
     fprintf(stream,
-            "\nfootprints, for range safety: where landings lie; %zu rockets, 95 %% intervals\n"
-            "%-8s %-30s %-36s %s\n",
-            of->count, "", "lie within [%]", "area [m2]", "farthest from the launch point [m]");
+            "\nfootprints, for range safety: %s; %zu %s, 95 %% intervals\n"
+            "%-8s %-30s %-36s farthest from %s [m]\n",
+            told[kind][0], of->count, told[kind][1], "", "lie within [%]", "area [m2]",
+            told[kind][2]);
     for (int k = 0; k < FOOTPRINT_SHARES; k++) {
         const footprint_region *region = &of->region[k];
         char name[32];
@@ -199,7 +203,7 @@ static void print_footprint(FILE *stream, const footprint *of)
         fprintf(stream, "%-8s", name);
         if (!region->stated) {
             char why[128];
-            footprint_why_not(region, why);
+            footprint_why_not(kind, region, why);
             fprintf(stream, " %s\n", why);
             continue;
         }
@@ -217,9 +221,12 @@ static ld_status print_footprints(shown *self, const study_point *point, ld_erro
     footprint *of = malloc(sizeof *of);
     if (!of)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the footprints");
-    ld_status status = shown_footprint_of(self, point, of, error);
-    if (!status && of->count > 0)
-        print_footprint(self->stream, of);
+    ld_status status = LD_OK;
+    for (int kind = 0; kind < FOOTPRINT_KINDS && !status; kind++) {
+        status = shown_footprint_of(self, point, (footprint_kind)kind, of, error);
+        if (!status && of->count > 0)
+            print_footprint(self->stream, (footprint_kind)kind, of);
+    }
     free(of);
     return status;
 }

@@ -177,15 +177,15 @@ static ld_status write_ellipses(json_writer *json, shown *self, const study_poin
     return status;
 }
 
-// Empty where rockets do not land, or on one line.
+// Empty where rockets do not land, or on one line, or without line.
 static ld_status write_footprints(json_writer *json, shown *self, const study_point *point,
-                                  ld_error *error)
+                                  footprint_kind kind, ld_error *error)
 {
     footprint *of = malloc(sizeof *of);
     if (!of)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the footprints");
-    ld_status status = shown_footprint_of(self, point, of, error);
-    json_open(json, "footprints", '[');
+    ld_status status = shown_footprint_of(self, point, kind, of, error);
+    json_open(json, kind == FOOTPRINT_LINE ? "line_footprints" : "footprints", '[');
     for (int k = 0; k < FOOTPRINT_SHARES && !status && of->count > 0; k++) {
         const footprint_region *region = &of->region[k];
         json_open(json, NULL, '{');
@@ -292,7 +292,9 @@ static ld_status write_view(json_writer *json, shown *self, const study_point *p
     if (!status && !self->view->sensitivity)
         status = write_ellipses(json, self, point, error);
     if (!status && !self->view->sensitivity)
-        status = write_footprints(json, self, point, error);
+        status = write_footprints(json, self, point, FOOTPRINT_LANDINGS, error);
+    if (!status && !self->view->sensitivity)
+        status = write_footprints(json, self, point, FOOTPRINT_LINE, error);
     return status;
 }
 

@@ -12,7 +12,7 @@ static const char usual[] = "t_front,t_middle,t_rear,exit_speed,spin_rate,since_
                             "since_ignition.yaw,since_ignition.pitch_rate,"
                             "since_ignition.yaw_rate,tip_off.pitch,tip_off.yaw,tip_off.pitch_rate,"
                             "tip_off.yaw_rate,pitch,yaw,pitch_rate,yaw_rate,apogee,downrange,drift,"
-                            "time_of_flight,impact_speed,"
+                            "time_of_flight,impact_speed,line.reach,"
                             "azimuth.error_rms,azimuth.torque_rms,azimuth.torque_peak,"
                             "azimuth.saturated,azimuth.power_mean,elevation.error_rms,"
                             "elevation.torque_rms,elevation.torque_peak,elevation.saturated,"
@@ -251,12 +251,19 @@ ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,
                : LD_OK;
 }
 
-ld_status shown_footprint_of(shown *self, const study_point *point, footprint *of, ld_error *error)
+ld_status shown_footprint_of(shown *self, const study_point *point, footprint_kind kind,
+                             footprint *of, ld_error *error)
 {
-    const study_column *column[2];
-    ld_status status = read_pair(self, point, STUDY_LANDING, column, error);
-    if (!status && footprint_of_values(&self->values, of))
-        return no_memory(error);
+    static const char *const told_with[FOOTPRINT_KINDS][2] = {
+        [FOOTPRINT_LANDINGS] = {"downrange", "drift"},
+        [FOOTPRINT_LINE] = {"line.reach", "line.reach"}};
+    *of = (footprint){.on_line = true};
+    for (int k = 0; k < 2; k++) {
+        const char *nearest;
+        if (!is_shown(self, study_data_find(self->data, told_with[kind][k], &nearest)))
+            return LD_OK;
+    }
+    ld_status status = footprint_read(self->data, point, kind, &self->values, of, error);
     if (!status && of->on_line)
         of->count = 0;
     return status;

@@ -69,8 +69,9 @@ typedef struct shown_ellipse {
 ld_status shown_ellipse_of(shown *self, const study_point *point, size_t index,
                            shown_ellipse *ellipse, ld_error *error);
 
-// The footprints of the landing points, where both results are shown; their count is 0 where there
-// are none.
-ld_status shown_footprint_of(shown *self, const study_point *point, footprint *of, ld_error *error);
+// The footprints of the landing points, where both results are shown, or of the line, where its
+// reach is; their count is 0 where there are none.
+ld_status shown_footprint_of(shown *self, const study_point *point, footprint_kind kind,
+                             footprint *of, ld_error *error);
 
 #endif
