@@ -285,7 +285,7 @@ class TestStudy(Case):
         data.export(footprint=self.folder / "safe.csv")
         with (self.folder / "safe.csv").open() as file:
             _, *rows = csv.reader(file)
-        corners = [(float(row[9]), float(row[10])) for row in rows if row[1] == "0.95"]
+        corners = [(float(row[10]), float(row[11])) for row in rows if row[2] == "0.95"]
         self.assertAlmostEqual(max(np.hypot(*corner) for corner in corners),
                                found.distance.value, places=6)
         none = data.footprint(0.999)
