@@ -50,6 +50,16 @@ typedef struct launching_load {
     v3 tip_force, tip_moment, rocket_force, rocket_moment; // [N], [N m]
 } launching_load;
 
+// The air along the guide at one instant, where the guide feels it.
+typedef struct air_about {
+    moving_air (*at)(const void *self, double t, v3 r); // without turbulence, at r of I; NULL: none
+    const void *self;
+    double t;
+    v3 turbulence; // [m/s] in I, the same all along the guide
+    const base_frame
+        *going; // the base held still goes like this through the air; NULL: it does not
+} air_about;
+
 // What comes from outside at one instant.
 typedef struct launching_input {
     base_frame base;
@@ -60,6 +70,7 @@ typedef struct launching_input {
     int pressure_piece;        // of its table over time, from 1; else 1; 0: not lit
     rocket_mass mass;
     moving_air air;                   // about the rocket; read where it feels it
+    air_about about;                  // the guide
     const aerodynamics *aerodynamics; // of the whole rocket, on an open guide; NULL: none
     bool power;                       // the thrust table has not ended: for those
     const launching_load *load;       // where it is linearised; NULL: none
@@ -112,9 +123,12 @@ typedef struct shoe_report {
 // That of a line that the rocket draws out of its container.
 #define LINE_WORKS(X) X(POWER_LINE, "line", "work of the line on the rocket")
 
+// That of the wind on the guide itself.
+#define GUIDE_WIND_WORKS(X) X(POWER_GUIDE_WIND, "guide_wind", "work of the wind on the guide")
+
 enum launching_power {
     LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) PRESSURE_WORKS(WORK_PLACE)
-        RECOIL_WORKS(WORK_PLACE) LINE_WORKS(WORK_PLACE) POWER_COUNT,
+        RECOIL_WORKS(WORK_PLACE) LINE_WORKS(WORK_PLACE) GUIDE_WIND_WORKS(WORK_PLACE) POWER_COUNT,
     POWER_ALWAYS = POWER_AIR, // those that are always there come first
 };
 
@@ -140,6 +154,7 @@ typedef struct launching_output {
     double line_paid;         // [m] its length that is out
     double emerged;           // [m] length of the rocket that is out of the tube, in the air
     v3 crossflow;             // [N] force of the air on it, in R
+    v3 guide_wind;            // [N] of the wind on the guide, where it feels it, in R
     double air_mach;          // of the mass centre through the air, where all of it feels that
     v3 air_force, air_moment; // [N], [N m] of the air on it, about the mass centre, in R
     double drift;             // [m/s] n . v_rel, zero but for the step error

@@ -165,6 +165,11 @@ bool model_feels_air(const ld_model *model)
     return model_has_crossflow(model) || model_has_open_air(model);
 }
 
+bool model_has_guide_wind(const ld_model *model)
+{
+    return model_has_launcher(model) && model->tubes.wind_drag_count > 0;
+}
+
 bool model_has_jet(const ld_model *model)
 {
     return model_has_vehicle(model) && model->platform.jet.rows > 0;

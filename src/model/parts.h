@@ -50,6 +50,8 @@ bool model_has_slot(const ld_model *model);
 bool model_has_crossflow(const ld_model *model);
 // Whether the air acts on the whole rocket on its guide: that is open, not a bore.
 bool model_has_open_air(const ld_model *model);
+// Whether the guide itself feels the air.
+bool model_has_guide_wind(const ld_model *model);
 // Whether the rocket feels the air before its release.
 bool model_feels_air(const ld_model *model);
 // Whether the jets of rockets that have left act on the platform.

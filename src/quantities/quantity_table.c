@@ -65,6 +65,7 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_ROLLER] = multibody ? vehicle->wheel_count : 0,
                   [EACH_MEASURE] = model_measure_count(model),
                   [EACH_LINE] = rocket->line.present,
+                  [EACH_GUIDE_WIND] = model_has_guide_wind(model),
                   [EACH_PARACHUTE] = rocket->parachute_count,
                   [EACH_LINE_PLACE] = rocket->line.present ? LD_LINE_PLACES : 0,
                   [EACH_STATION] = tubes->station_count,

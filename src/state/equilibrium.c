@@ -233,6 +233,7 @@ static void at_rest(const problem *the, const double *y, launcher_input *input)
     input->formulation = LD_FORMULATION_REDUCED;
     if (!self->air || !the->going)
         return;
+    input->launching.about.going = the->going;
     v3 center = launching_rocket_point(&self->launcher.launching, y, input->launching.mass.c);
     v3 v = v3_cross(the->going->w, v3_sub(center, the->going->r));
     input->launching.air.v = v3_sub(input->launching.air.v, v3_add(the->going->v, v));

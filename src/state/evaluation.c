@@ -17,6 +17,25 @@ static void find_air(const launch_state *self, double t, const double *y, launch
         input->aerodynamics = &self->air->aerodynamics;
 }
 
+static moving_air air_at(const void *self, double t, v3 r)
+{
+    return flight_air_about(self, t, r);
+}
+
+// The air about the guide, its turbulence that at the tip of the undeformed one.
+static void find_air_about(const launch_state *self, double t, const double *y,
+                           launching_input *input)
+{
+    const launching_system *launching = &self->launcher.launching;
+    const launching_layout *at = &launching->layout;
+    v3 axis = m3_column(q_matrix(q_from(y + at->quaternion)), 0);
+    v3 tip = v3_axpy(v3_from(y + at->r), launching->tube.flexible.length, axis);
+    input->about = (air_about){.at = air_at,
+                               .self = self->air,
+                               .t = t,
+                               .turbulence = flight_turbulence_past(self->air, t, tip)};
+}
+
 void simulation_surround(const launch_state *self, double t, const double *y,
                          launching_input *input)
 {
@@ -31,8 +50,11 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     const base_disturbance *disturbed = self->launcher.base.disturbed;
     input->load = disturbed ? &disturbed->input.launching : NULL;
     input->record = NULL;
+    input->about.at = NULL;
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
+    if (self->air && self->launcher.launching.wind.count)
+        find_air_about(self, t, y, input);
 }
 
 jet_wrench simulation_jets(const launch_state *self, double t, const base_frame *tube)

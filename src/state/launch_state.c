@@ -57,7 +57,8 @@ void launch_state_select(launch_state *self, int i)
     assert(i >= 0 && i < model_firing_count(self->model));
     self->current = i;
     self->motor = simulation_motor(self->system, i);
-    self->air = model_feels_air(self->model) ? simulation_flight(self->system, i) : NULL;
+    bool feels = model_feels_air(self->model) || model_has_guide_wind(self->model);
+    self->air = feels ? simulation_flight(self->system, i) : NULL;
     self->rocket = salvo_rocket(self->model, i);
     launching_set_rocket(&self->launcher.launching, self->rocket);
     self->t_ignition = model_firing(self->model, i)->at;

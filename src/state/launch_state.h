@@ -34,7 +34,7 @@ typedef struct launch_state {
     const ld_model *model;    // the system's
     launcher_system launcher; // the system's, with the current rocket in its tube
     const motor *motor;       // of the current rocket
-    const flight_system *air; // that it flies in, where it feels it in its tube; NULL
+    const flight_system *air; // that it flies in, where it or its guide feels it; NULL
     const ld_rocket *rocket;
     int current; // rocket in the order of firing
     double t_ignition;

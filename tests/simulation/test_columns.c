@@ -496,6 +496,25 @@ static void say_crossflow(instant *at, double power[LAUNCHER_MOST_WORKS])
     }
 }
 
+// The power of the wind's force per length on the only section in it, by Simpson's rule.
+static void say_guide_wind(instant *at, double power[LAUNCHER_MOST_WORKS])
+{
+    enum { STRETCHES = 8 };
+    const ld_wind_drag *given = at->run->model->tubes.wind_drag;
+    column_book *book = &at->run->book;
+    const dense_conditions *on = &at->input.conditions;
+    expect3(book, "guide_wind.", xyz, at->out.guide_wind);
+    double length = given->to - given->from;
+    for (int k = 0; k <= STRETCHES; k++) {
+        double share = (k == 0 || k == STRETCHES ? 1 : k % 2 ? 4 : 2) / (3.0 * STRETCHES);
+        moving part = section(at, given->from + length * k / STRETCHES);
+        v3 axis = m3_column(part.A, 0), flow = v3_sub(v3_from(on->air), part.v);
+        flow = v3_axpy(flow, -v3_dot(flow, axis), axis);
+        double half = 0.5 * on->density * given->coefficient * given->width;
+        power[POWER_GUIDE_WIND] += share * length * half * v3_norm(flow) * v3_dot(flow, part.v);
+    }
+}
+
 // The force of the pressure at O1 along the section there, and against the rear section at its own.
 static void say_pressure(instant *at, double power[LAUNCHER_MOST_WORKS])
 {
@@ -741,6 +760,7 @@ static const char *const work_names[LAUNCHER_MOST_WORKS] = {
     [POWER_PRESSURE] = "pressure",
     [POWER_RECOIL] = "recoil",
     [POWER_LINE] = "line",
+    [POWER_GUIDE_WIND] = "guide_wind",
     BASE_WORK(VEHICLE_STABILISERS) = "stabilisers",
     BASE_WORK(VEHICLE_FRICTION) = "hinge_friction",
     BASE_WORK(VEHICLE_GRAVITY) = "gravity_platform",
@@ -772,6 +792,8 @@ static bool has_work(const ld_model *model, int i)
         return model_slide_count(model) > 0;
     if (i == POWER_LINE)
         return model->rocket.line.present;
+    if (i == POWER_GUIDE_WIND)
+        return model_has_guide_wind(model);
     if (i == POWER_COUNT + VEHICLE_JET)
         return model_has_jet(model);
     return i < POWER_COUNT || model_has_vehicle(model);
@@ -918,6 +940,8 @@ static void look_at_row(observer *run, const launch_state *self, double t, const
     rocket_powers(&at, power);
     if (model_has_crossflow(run->model))
         say_crossflow(&at, power);
+    if (model_has_guide_wind(run->model))
+        say_guide_wind(&at, power);
     tube_powers(&at, power);
     if (model_has_pressure(run->model))
         say_pressure(&at, power);
@@ -1015,6 +1039,8 @@ static void let_the_wind_blow(ld_model *model)
     model->environment.wind.present = true;
     model->environment.wind.speed = 25;
     model->environment.wind.heading = 1.1;
+    model->tubes.wind_drag_count = 1;
+    model->tubes.wind_drag[0] = (ld_wind_drag){0.5, 2.7, 0.4, 1.3};
 }
 
 static void watch_run(const ld_model *model, const column_bound *bound, size_t bounds)

@@ -66,6 +66,9 @@ static const char *const kinds[] = {
     "m, "
     "1 mm, 2 mm, 1 deg]]",
     "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
+    "tubes.wind_drag=[{from: 0 m, to: 1.5 m, width: 30 cm, coefficient: 1.2}, {from: 1 m, to: 2.9 "
+    "m, "
+    "width: 0.1 m, coefficient: 0.8}]",
     "tubes.pressure={pressure: 2 MPa, volume: 0.03 m3, exponent: 1.4, ambient: 0.1 MPa}",
     "tubes.pressure={over_time: [[0 s, 0 MPa], [10 ms, 1 MPa], [0.1 s, 0.5 MPa]]}",
     "tubes={pressure: {over_travel: [[0 m, 2 MPa], [1 m, 1 MPa], [3 m, 0.3 MPa]]}, slot: none}",

@@ -1335,6 +1335,41 @@ static void add_crossflow(equations *eq, const jet_scene *scene, const dense_con
     turn_back(output->crossflow, scene->state->A_R[0], force);
 }
 
+// The air on the guide's sections: a force per length by the velocity of the axis against the air,
+// across the section's x axis, at the points at which the program takes it.
+static void add_guide_wind(equations *eq, const jet_scene *scene, const dense_conditions *on,
+                           dense_launch_output *output)
+{
+    const ld_tubes *tubes = &scene->dense->model->tubes;
+    const double place = sqrt(0.6);
+    double sum[3] = {0};
+    for (int n = 0; n < tubes->wind_drag_count; n++) {
+        const ld_wind_drag *one = &tubes->wind_drag[n];
+        double share = (one->to - one->from) / tubes->length;
+        int panels = (int)ceil(share * tubes->modes.bending), points = 3 * panels;
+        for (int k = 0; k < points; k++) {
+            double middle = k / 3 + 0.5, off = 0.5 * (k % 3 - 1) * place, v[3], along = 0, f[3];
+            double at = one->from + (one->to - one->from) * (middle + off) / panels;
+            double weight = (k % 3 == 1 ? 8 : 5) / 18.0 * (one->to - one->from) / panels;
+            jet_frame section = tube_section_in_I(scene, at);
+            for (int i = 0; i < 3; i++) {
+                v[i] = on->air[i] - section.r.c[i].e;
+                along += v[i] * section.A.c[i][0].v;
+            }
+            for (int i = 0; i < 3; i++)
+                v[i] -= along * section.A.c[i][0].v;
+            double speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+            for (int i = 0; i < 3; i++) {
+                f[i] = 0.5 * on->density * speed * v[i] * one->coefficient * one->width * weight;
+                sum[i] += f[i];
+            }
+            add_force(eq->h, &section.r, f);
+            add_force(eq->other, &section.r, f);
+        }
+    }
+    turn_back(output->guide_wind, scene->state->A_R[0], sum);
+}
+
 // On an open guide: the air of the flight's own equations (support/dense_flight.c) on the rocket.
 static void add_open_air(equations *eq, const jet_scene *scene, const dense_conditions *on,
                          dense_launch_output *output)
@@ -1655,6 +1690,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     add_gas(&eq, &moving, conditions, &rear, s.v, output);
     add_crossflow(&eq, &moving, conditions, s.v, output);
     add_open_air(&eq, &moving, conditions, output);
+    add_guide_wind(&eq, &moving, conditions, output);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)

@@ -115,6 +115,7 @@ typedef struct dense_launch_output {
     double slide_press[LD_MAX_SUPPORTS][2]; // [N] positive where its front or rear stop pushes
     double emerged;                     // [m] of the rocket out of the tube, where it feels the air
     double crossflow[3];                // [N] of the air on it, in R
+    double guide_wind[3];               // [N] of the air on the guide, in R
     double air_force[3], air_moment[3]; // [N], [N m] on all of it, about its mass centre, in R
     double slot_drift;                  // [m/s] n . v_rel
     double lock_drift;                  // [m/s] e_x . v_rel at its point, locked

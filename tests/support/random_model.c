@@ -360,6 +360,28 @@ static void draw_initial_shape(uint64_t seed, ld_tubes *tubes)
                            .offsets = reference_table((size_t)rows, (size_t)columns, row)};
 }
 
+// A wind that the guide feels.
+static void draw_wind_drag(uint64_t seed, ld_model *model)
+{
+    ld_tubes *tubes = &model->tubes;
+    ld_wind *wind = &model->environment.wind;
+    if (chance(&seed, 0.7))
+        return;
+    tubes->wind_drag_count = 1 + choice(&seed, 3);
+    for (int i = 0; i < tubes->wind_drag_count; i++) {
+        ld_wind_drag *one = &tubes->wind_drag[i];
+        one->from = between(&seed, 0, 0.9) * tubes->length;
+        one->to = between(&seed, one->from, tubes->length);
+        one->width = between(&seed, 0, 0.5);
+        one->coefficient = between(&seed, 0.1, 3);
+    }
+    wind->present = true;
+    wind->speed = between(&seed, -20, 20);
+    wind->heading = between(&seed, -3, 3);
+    wind->turbulence.present = chance(&seed, 0.5);
+    wind->turbulence.wind_at_6m = between(&seed, 1, 10);
+}
+
 // Columns that every launch has, taken in all ways, between instants that every rocket has.
 static void draw_measures(uint64_t *seed, ld_model *model)
 {
@@ -410,6 +432,7 @@ void draw_random_model(uint64_t seed, ld_model *model)
     draw_clamps(seed ^ 0x9e3779b9, model);
     draw_stations(seed ^ 0x7f4a7c15, &model->tubes);
     draw_initial_shape(seed ^ 0x2545f491, &model->tubes);
+    draw_wind_drag(seed ^ 0x6a09e667, model);
 }
 
 // ---- running ----

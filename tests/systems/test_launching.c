@@ -12,7 +12,7 @@
 #include "systems/launching/launching_overall.h"
 
 typedef struct agreement {
-    double eta, V, slot, lock, contact, breech, base, crossflow;
+    double eta, V, slot, lock, contact, breech, base, crossflow, wind;
 } agreement;
 
 static double relative3(const double *a, v3 b, double scale)
@@ -58,6 +58,9 @@ static void compare(const launching_system *system, const launching_case *c,
             worst->contact = fmax(worst->contact,
                                   fabs(dense->contact[i].normal - out->adaptor[i].normal) / force);
     worst->crossflow = fmax(worst->crossflow, relative3(dense->crossflow, out->crossflow, force));
+    if (system->wind.count)
+        worst->wind = fmax(worst->wind,
+                           relative3(dense->guide_wind, out->guide_wind, norm3(dense->guide_wind)));
     worst->base =
         fmax(worst->base, relative3(dense->base_force, out->base_force, norm3(dense->base_force)));
     worst->base = fmax(worst->base,
@@ -97,6 +100,27 @@ static void blow(const launching_system *system, uint64_t *seed, launching_case 
     c->input.air.density = 1.2 + 0.1 * draw(seed);
 }
 
+static moving_air same_air(const void *self, double t, v3 r)
+{
+    (void)t, (void)r;
+    return *(const moving_air *)self;
+}
+
+// A wind along the guide, of its own speeds in size.
+static void blow_on_guide(uint64_t *seed, launching_case *c)
+{
+    static moving_air air;
+    if (c->input.air.density == 0) {
+        c->input.air.v = draw_v3(seed, 20);
+        c->input.air.density = 1.2 + 0.1 * draw(seed);
+    }
+    air = c->input.air;
+    c->input.about = (air_about){.at = same_air, .self = &air};
+    v3 gust = draw_v3(seed, 5);
+    air.v = v3_sub(air.v, gust);
+    c->input.about.turbulence = gust;
+}
+
 static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name)
 {
     launching_system *system = aligned_alloc(64, (sizeof *system + 63) / 64 * 64);
@@ -118,6 +142,8 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
             put_on_breech(system, k, &c);
         if (model_has_crossflow(model))
             blow(system, &seed, &c);
+        if (system->wind.count)
+            blow_on_guide(&seed, &c);
         copy_to_dense(system, &c);
         assert_int_equal(evaluate(system, &c.input, &c.phase, c.state, &out), LAUNCHING_OK);
         assert_true(dense_launch_evaluate(&dense, &c.dense, &reference));
@@ -136,6 +162,8 @@ static void check_agreement(const ld_model *model, evaluator evaluate, int count
     CHECK_BELOW("breech force", worst.breech, lost * 6e-11);
     CHECK_WITHIN("share of states on the breech", (double)pressed / count, 0.4, 0.5);
     CHECK_BELOW("force and moment on the base", worst.base, lost * 1e-12);
+    if (system->wind.count)
+        CHECK_BELOW("force of the wind on the guide", worst.wind, 1e-13);
     if (model_has_crossflow(model)) {
         CHECK_BELOW("force of the air", worst.crossflow, 1e-12);
         CHECK_WITHIN("share of states in the air", (double)emerged / count, 0.5, 0.9);
@@ -556,6 +584,44 @@ static void initial_shape_equals_dense(void **state)
     reference_model_free(&model);
 }
 
+static void wind_on_the_guide_equals_dense(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    ld_tubes *tubes = &model.tubes;
+    tubes->modes.bending = 4;
+    tubes->wind_drag_count = 3;
+    tubes->wind_drag[0] = (ld_wind_drag){0, 1.3, 0.4, 1.2};
+    tubes->wind_drag[1] = (ld_wind_drag){1.3, 3, 0.2, 0.7};
+    tubes->wind_drag[2] = (ld_wind_drag){2.5, 2.6, 6, 2};
+    check_agreement(&model, launching_evaluate, 100, "wind on the guide");
+    check_agreement(&model, launching_evaluate_general, 60, "wind on the guide, general");
+    check_agreement(&model, overall, 60, "wind on the guide, overall");
+    tubes->section[0].form = LD_SECTION_PLANES;
+    tubes->section[0].bending_stiffness_y = tubes->section[0].bending_stiffness;
+    tubes->section[0].bending_stiffness_z = 0.4 * tubes->section[0].bending_stiffness;
+    tubes->section[0].bending_stiffness = NAN;
+    model.rocket.aerodynamics.present = model.rocket.aerodynamics.emerged.present = true;
+    model.rocket.aerodynamics.emerged.nose = 2.55;
+    model.rocket.aerodynamics.emerged.drag = 1.2;
+    model.rocket.aerodynamics.emerged.diameter = 0.3;
+    shape_guide(4, 4, &model);
+    check_agreement(&model, launching_evaluate, 60, "wind, bent guide, planes that differ, air");
+    reference_model_free(&model);
+    reference_model(&model);
+    tubes->modes.bending = 4;
+    tubes->modes.shear_coefficient = 0.05;
+    tubes->wind_drag_count = 1;
+    tubes->wind_drag[0] = (ld_wind_drag){0.3, 2.6, 0.4, 1.2};
+    check_agreement(&model, launching_evaluate, 60, "wind, shear");
+    tubes->modes.shear_coefficient = 0;
+    tubes->modes.geometric_stiffness = LD_GEOMETRIC_YES;
+    tubes->modes.axial = 2;
+    check_agreement(&model, launching_evaluate, 60, "wind, P-delta, axial");
+    reference_model_free(&model);
+}
+
 // The wider instructions give the same bits.
 static void wide_instructions_give_the_same_bits(void **state)
 {
@@ -601,6 +667,7 @@ int main(void)
         cmocka_unit_test(air_on_the_emerged_part_equals_dense),
         cmocka_unit_test(pressure_and_recoil_equal_dense),
         cmocka_unit_test(initial_shape_equals_dense),
+        cmocka_unit_test(wind_on_the_guide_equals_dense),
         cmocka_unit_test(wide_instructions_give_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

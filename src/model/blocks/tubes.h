@@ -43,6 +43,13 @@ typedef struct ld_tail {
     double inertia[3]; ///< [kg m2] about its own mass centre, tube axes
 } ld_tail;
 
+/// A length of the guide in the wind; overlapping ones add up.
+typedef struct ld_wind_drag {
+    double from, to;    ///< [m] stations
+    double width;       ///< [m] across the wind
+    double coefficient; ///< [-] of its drag across the axis
+} ld_wind_drag;
+
 /// Where it is asked for what the tube carries.
 typedef struct ld_station {
     double at;             ///< [m] station
@@ -84,6 +91,8 @@ typedef struct ld_tubes {
     ld_pressure pressure;
     ld_guide guide;
     ld_initial_shape initial_shape;
+    int wind_drag_count;
+    ld_wind_drag wind_drag[LD_MAX_WIND_DRAGS];
 } ld_tubes;
 
 #endif

@@ -881,6 +881,16 @@ static const field_row initial_shape_fields[] = {
 static const field_block initial_shape_block = {.fields = initial_shape_fields};
 static const field_word initial_shape_words[] = {{"straight", 0}, {"", 1}, {NULL, 0}};
 
+static const field_row wind_drag_fields[] = {
+    {"from", NUMBER(ld_wind_drag, from, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
+    {"to", NUMBER(ld_wind_drag, to, "m"), ABOVE_TO(0, 100), REQUIRED, .doc = "station"},
+    {"width", NUMBER(ld_wind_drag, width, "m"), FROM_TO(0, 100), REQUIRED,
+     .doc = "across the wind; of a lattice that of its bars together"},
+    {"coefficient", NUMBER(ld_wind_drag, coefficient, ""), FROM_TO(0, 100), REQUIRED,
+     .doc = "of the drag across the axis, on the width"},
+    {0}};
+static const field_block wind_drag_block = {.fields = wind_drag_fields};
+
 static const field_row tubes_fields[] = {
     {"on", WORD(ld_tubes, on), .initial_doc = "none",
      .doc = "body or beam of a base of kind multibody that carries them; on a beam each support "
@@ -919,6 +929,9 @@ static const field_row tubes_fields[] = {
     {"initial_shape", BLOCK(ld_tubes, initial_shape, initial_shape_block), .silent = true,
      .initial_doc = "straight", SWITCH(ld_tubes, initial_shape.present, initial_shape_words),
      .other_is_bool = true, .doc = "how the unloaded guide departs from a straight line"},
+    {"wind_drag", LIST(ld_tubes, wind_drag, wind_drag_count, wind_drag_block, 0, LD_MAX_WIND_DRAGS),
+     .silent = true, .initial_doc = "none",
+     .doc = "lengths of the guide that feel `environment.wind`; overlapping ones add up"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 

@@ -518,6 +518,21 @@ static void initial_shape_rules(const rule_set *rules)
                       last, tubes->length);
 }
 
+static void wind_drag_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    for (int i = 0; i < tubes->wind_drag_count; i++) {
+        const ld_wind_drag *given = &tubes->wind_drag[i];
+        station_rule(rules, "tubes.wind_drag.#.to", i + 1, given->to);
+        if (given->to <= given->from)
+            report_broken(rules, "tubes.wind_drag.#.to", i + 1,
+                          "%g m does not lie beyond from, %g m", given->to, given->from);
+    }
+    if (tubes->wind_drag_count > 0 &&
+        rules->model->environment.atmosphere.kind == LD_ATMOSPHERE_NONE)
+        report_broken(rules, "tubes.wind_drag", 0, "without an atmosphere the guide has no drag");
+}
+
 static void over_time_rules(const rule_set *rules)
 {
     const ld_table *table = &rules->model->tubes.pressure.over_time;
@@ -727,6 +742,7 @@ static void launch_rules(const rule_set *rules)
     recoil_rules(rules);
     slot_rules(rules);
     initial_shape_rules(rules);
+    wind_drag_rules(rules);
     adaptor_rules(rules);
     guide_rules(rules);
     contact_rules(rules);

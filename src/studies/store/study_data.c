@@ -133,37 +133,46 @@ static bool name_units(study_data *data, const ld_model *model)
     return true;
 }
 
+static void describe_factors(study_data *data, const ld_model *model)
+{
+    study_reader *self = data->reader;
+    char why[384];
+    data->plan = (study_plan){model->scatter.plan, model->scatter.seed, model->scatter.factor_count,
+                              plan_row(&model->scatter)};
+    for (int i = data->result_count; i < data->column_count; i++) {
+        const ld_factor *factor = factor_named(model, data->column[i].name);
+        field_place place;
+        if (!factor)
+            continue;
+        self->number[i] = (int)(factor - model->scatter.factor);
+        if (field_locate(model, factor_path(factor, 0), &place, why, sizeof why) && place.row->unit)
+            self->column[i].unit = place.row->unit;
+        self->column[i].seed = distribution_of(factor->distribution)->traits & LD_SEED;
+    }
+}
+
 // Units and kinds of the factors and the title, from the scenario itself; without them where it
 // cannot be read.
 static ld_status read_scenario(study_data *data, ld_error *error)
 {
-    study_reader *self = data->reader;
-    ld_model model;
+    ld_model *model = malloc(sizeof *model);
     ld_messages messages;
-    char why[384];
+    if (!model)
+        return no_memory(error);
     ld_status status = scenario_read_text(data->scenario, strlen(data->scenario), "study", ".",
-                                          NULL, 0, &model, &messages);
+                                          NULL, 0, model, &messages);
+    bool whole = status != LD_ERR_MEMORY;
     if (status) {
         ld_messages_free(&messages);
-        return status == LD_ERR_MEMORY ? no_memory(error) : LD_OK;
+    } else {
+        whole = name_units(data, model);
+        describe_factors(data, model);
+        data->title = keep_text(data->reader, strdup(model->title ? model->title : ""));
+        whole &= data->title != NULL;
+        model_clear(model);
     }
-    bool named = name_units(data, &model);
-    data->plan = (study_plan){model.scatter.plan, model.scatter.seed, model.scatter.factor_count,
-                              plan_row(&model.scatter)};
-    for (int i = data->result_count; i < data->column_count; i++) {
-        const ld_factor *factor = factor_named(&model, data->column[i].name);
-        field_place place;
-        if (!factor)
-            continue;
-        self->number[i] = (int)(factor - model.scatter.factor);
-        if (field_locate(&model, factor_path(factor, 0), &place, why, sizeof why) &&
-            place.row->unit)
-            self->column[i].unit = place.row->unit;
-        self->column[i].seed = distribution_of(factor->distribution)->traits & LD_SEED;
-    }
-    data->title = keep_text(self, strdup(model.title ? model.title : ""));
-    model_clear(&model);
-    return named && data->title ? LD_OK : no_memory(error);
+    free(model);
+    return whole ? LD_OK : no_memory(error);
 }
 
 static ld_status list_columns(study_data *data, ld_error *error)

@@ -103,7 +103,8 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
         status = wind_build(&self->wind, &environment->wind, error);
     if (!status)
         status = aerodynamics_build(&self->aerodynamics, &flying->aerodynamics, error);
-    self->feels_air = self->aerodynamics.present || self->parachutes || flying->air_brakes.present;
+    self->feels_air = self->aerodynamics.present || self->parachutes ||
+                      flying->air_brakes.present || model_has_guide_wind(model);
     if (!status && self->wind.present && self->feels_air)
         status = turbulence_build(&self->turbulence, &environment->wind.turbulence, rocket, error);
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;

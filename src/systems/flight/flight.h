@@ -96,7 +96,7 @@ typedef struct flight_system {
     v3 thrust_direction; // unit vector, in B
     bool jet_damping;
     bool parachutes;  // there are some
-    bool feels_air;   // of aerodynamics, brakes or parachutes
+    bool feels_air;   // of aerodynamics, brakes or parachutes, or its guide does
     bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
     bool feels_shear; // surfaces in a wind that changes with height
     double ground;    // [m] its height: of the plane y, else above sphere or ellipsoid
@@ -269,6 +269,13 @@ flight_flow flight_flow_at(const flight_system *self, double t, const double *st
 // The air where a rocket in its tube has its mass centre r [m] of I: as it will be when the flight
 // begins, its turbulence that of `left` [m] before the mouth, the way that the rocket has to go.
 moving_air flight_air_at(const flight_system *self, double t, v3 r, double left);
+
+// The same without turbulence at a point r of the guide.
+moving_air flight_air_about(const flight_system *self, double t, v3 r);
+
+// The turbulence that passes a fixed point r of I with the mean wind there: xi = V_m t/L, [m/s] in
+// I.
+v3 flight_turbulence_past(const flight_system *self, double t, v3 r);
 
 // The same without turbulence, on a flat Earth.
 moving_air flight_steady_air_at(const flight_system *self, double t, v3 r);

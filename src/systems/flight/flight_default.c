@@ -96,6 +96,33 @@ moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
                         here.speed_of_sound};
 }
 
+moving_air flight_air_about(const flight_system *self, double t, v3 r)
+{
+    v3 v = v3_zero(), place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
+    double altitude = earth_altitude(&self->earth, place);
+    if (self->wind.present)
+        v = wind_here(self, t, place, altitude);
+    air here = atmosphere_at(&self->atmosphere, altitude);
+    return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
+                        here.speed_of_sound};
+}
+
+v3 flight_turbulence_past(const flight_system *self, double t, v3 r)
+{
+    if (!self->turbulence.present)
+        return v3_zero();
+    v3 place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
+    double altitude = earth_altitude(&self->earth, place);
+    double height = flight_height_over_ground(self, place, altitude);
+    // before all gusts
+    v3 mean = wind_at(&self->wind, -INFINITY, self->wind.geographic ? altitude : height);
+    double way = v3_norm(mean) * t;
+    turbulence_scales scales = turbulence_scales_at(&self->turbulence, height);
+    double xi[2] = {way / scales.L_u, way / scales.L_w};
+    v3 v = flight_turbulence(self, t, place, altitude, xi, &scales);
+    return m3_apply_transposed(ground_axes(self, t), v);
+}
+
 moving_air flight_steady_air_at(const flight_system *self, double t, v3 r)
 {
     double altitude = earth_altitude(&self->earth, r);

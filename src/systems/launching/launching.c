@@ -45,6 +45,8 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 // Works up to the last kind that the model has.
 static int works_of(const ld_model *model)
 {
+    if (model_has_guide_wind(model))
+        return POWER_GUIDE_WIND + 1;
     if (model_rocket(model)->line.present)
         return POWER_LINE + 1;
     return model_slide_count(model)    ? POWER_RECOIL + 1
@@ -53,8 +55,8 @@ static int works_of(const ld_model *model)
                                        : POWER_ALWAYS;
 }
 
-// Modes and coefficients follow from all keys of `tubes` but those of slot, guide and pressure, of
-// where the tubes are and of what is asked for.
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide, pressure and
+// wind, of where the tubes are and of what is asked for.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
@@ -64,6 +66,7 @@ static bool same_tube(const ld_tubes *a, const ld_tubes *b)
                              key->offset == offsetof(ld_tubes, pressure) ||
                              key->offset == offsetof(ld_tubes, guide) ||
                              key->offset == offsetof(ld_tubes, initial_shape) ||
+                             key->offset == offsetof(ld_tubes, wind_drag) ||
                              key->offset == offsetof(ld_tubes, station);
         if (!planes_differ && !field_same(key, a, b))
             return false;
@@ -181,6 +184,8 @@ ld_status launching_build(launching_system *self, const ld_model *model, launchi
     if (!status)
         status = initial_shape_build(tubes, &self->tube.initial, error);
     if (!status)
+        status = guide_wind_build(tubes, &self->wind, error);
+    if (!status)
         status = build_cuts(self, error);
     if (status) {
         launching_free(self);
@@ -200,6 +205,7 @@ void launching_free(launching_system *self)
     pressure_free(&self->pressure);
     initial_shape_free(self->tube.initial);
     self->tube.initial = NULL;
+    guide_wind_free(&self->wind);
     free(self->cut);
     self->cut = NULL;
 }

@@ -10,6 +10,7 @@
 #include "elements/guide/crossflow.h"
 #include "elements/guide/drag.h"
 #include "elements/guide/guide_cut.h"
+#include "elements/guide/guide_wind.h"
 #include "elements/guide/ideal.h"
 #include "elements/guide/line_pull.h"
 #include "elements/guide/lock.h"
@@ -36,6 +37,7 @@ typedef struct launching_system {
     lock_system lock;
     crossflow_body crossflow;
     pressure_system pressure;
+    guide_wind wind;
     guide_cut *cut; // [tubes.station_count] at the stations where loads are asked for, owned
     int work_count; // of the powers: the first so many
     bool wide_instructions; // AVX2 is there

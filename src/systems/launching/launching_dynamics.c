@@ -85,6 +85,8 @@ LD_INLINE launching_outcome evaluate(const evaluation_kind kind, const launching
     tube_factor(lanes, &self->tube, &now.tube);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, &now);
+    if (__builtin_expect(self->wind.count, 0))
+        guide_wind_add(&self->wind, &self->tube, &now);
     if (rocket)
         launching_load_rocket(lanes, self, state, &now);
 

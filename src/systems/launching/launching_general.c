@@ -85,6 +85,8 @@ void launching_uncouple(const launching_system *self, const launching_input *inp
     supports_add(lanes, &self->supports, &self->tube, now);
     if (input->load)
         load_tip(lanes, input->load, &self->tube, now);
+    if (self->wind.count)
+        guide_wind_add(&self->wind, &self->tube, now);
     if (phase->rocket)
         launching_load_rocket(lanes, self, state, now);
     tube_factor(lanes, &self->tube, &now->tube);
