@@ -82,6 +82,24 @@ do for [j = 1:2] {
 }
 unset multiplot
 
+# ---- step ----
+set output "docs/figures/rail-step.svg"
+set terminal svg size 900,380
+set multiplot layout 1,2
+set xrange [3.35:5.05]
+set yrange [*:*]
+set key default top right
+set xlabel "station at which the rear shoe's contact ends [m]"
+do for [j = 1:2] {
+    set ylabel plane[j]." rate at the exit [mrad/s]"
+    if (j == 2) { unset key }
+    plot out."/step.txt" using 1:1 + j with points pt 7 ps 0.4 lc 1 title name[1], \
+         out."/step-tight.txt" using 1:1 + j with linespoints pt 6 ps 0.5 lc 2 title name[2], \
+         out."/step-stiff.txt" using 1:1 + j with linespoints pt 7 ps 0.4 lc 3 title name[3], \
+         out."/rigid-step.txt" using 1:1 + j with lines lc "black" dt 2 title "closed form"
+}
+unset multiplot
+
 # ---- mass centre and wind ----
 set output "docs/figures/rail-offset.svg"
 set terminal svg size 1000,380

@@ -31,7 +31,7 @@ typedef enum ld_event_kind {
     LD_EVENT_LAND,   ///< wheel `part` comes back to it
     LD_EVENT_LEAVE,  ///< the tube leaves stop `part` of its recoil slides
     LD_EVENT_STOP,   ///< the tube comes to it
-    LD_EVENT_EXIT,   ///< adaptor `part` passes the tube's tip
+    LD_EVENT_EXIT,   ///< adaptor `part` leaves the guide
     LD_EVENT_TUBE,   ///< the rocket's tube takes the place of the one before
     LD_EVENT_END,    ///< of the launch; the flights are flown by ld_run_end()
 } ld_event_kind;

@@ -1,5 +1,5 @@
-// What happens at events and stops of a launch: the lock releases, adaptors pass the tip, ignition,
-// corners.
+// What happens at events and stops of a launch: the lock releases, adaptors leave the guide,
+// ignition, corners.
 #include "launch/launch_events.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 
-static void pass_adaptor(ld_run *run, int i, double t, const double *y)
+static void let_adaptor_go(ld_run *run, int i, double t, const double *y)
 {
     launch_state *self = &run->launch;
     ld_rocket_summary *rocket = &run->summary.rocket[self->current];
@@ -33,6 +33,16 @@ static void pass_adaptor(ld_run *run, int i, double t, const double *y)
     } else if (count == 3) {
         rocket->t_middle = since;
     }
+}
+
+// Adaptor i leaves with those that leave with it, the rear one with all.
+static void pass_adaptors(ld_run *run, int i, double t, const double *y)
+{
+    const launch_state *self = &run->launch;
+    const adaptor_set *adaptors = &self->launcher.launching.adaptors;
+    for (int j = adaptors->count - 1; j >= 0; j--)
+        if (!self->phase.passed[j] && (i == 0 || adaptors->leaves_with[j] == i))
+            let_adaptor_go(run, j, t, y);
 }
 
 // Rear adaptor out and the launcher continues (another rocket, or run.end is a time): the rocket
@@ -153,7 +163,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
     }
     for (int i = count - 1; i >= 0; i--) {
         if (!self->phase.passed[i] && propagator_event(run->propagator, EVENT_EXIT, i) < 0) {
-            pass_adaptor(run, i, t, y);
+            pass_adaptors(run, i, t, y);
             changed = true;
         }
         if (by_touch && !self->phase.passed[i] &&

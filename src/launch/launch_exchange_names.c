@@ -134,7 +134,7 @@ exchange_quantity launch_exchange_indicator(const ld_run *run, int i)
     case EVENT_RELEASE:
         return quantity_as("", "", "The lock releases where it falls through zero", "release");
     case EVENT_EXIT:
-        return quantity_as("", "", "The adaptor passes the tip where it falls through zero",
+        return quantity_as("", "", "The adaptor leaves the guide where it falls through zero",
                            "exit.%d", index + 1);
     case EVENT_TOUCH:
         return quantity_as("", "", "The adaptor touches where it rises through zero", "touch.%d",

@@ -64,7 +64,7 @@ static ld_status check_progress(ld_run *run, double t, const double *y)
         &run->error, LD_ERR_LAUNCH,
         "the rocket is stuck in the tube: its rear adaptor is at %.4g m of %.4g m, %.4g s "
         "after ignition",
-        s, self->launcher.launching.tube.flexible.length, since);
+        s, self->launcher.launching.adaptors.end[0], since);
 }
 
 // Launches must not overlap.

@@ -64,3 +64,13 @@ double guide_clearance(const ld_adaptor *shoe)
 {
     return isnan(shoe->clearance) ? 0 : shoe->clearance;
 }
+
+double guide_end(const ld_tubes *tubes, const ld_adaptor *adaptor)
+{
+    return isnan(adaptor->leaves_at) ? tubes->length : adaptor->leaves_at;
+}
+
+double guide_exit_station(const ld_tubes *tubes, const ld_adaptor *adaptor)
+{
+    return guide_end(tubes, adaptor) - adaptor->at;
+}

@@ -131,9 +131,9 @@ typedef struct ld_rocket_summary {
     int tube;                       ///< number of the tube
     double t_ignition;              ///< [s] on the run's clock
     double t_release;               ///< lock release
-    double t_front;                 ///< front adaptor (the one farthest forward) passes the tip
-    double t_middle;                ///< middle adaptor (of exactly three) passes the tip
-    double t_rear;                  ///< rear adaptor passes the tip: the rocket has left
+    double t_front;                 ///< front adaptor (the one farthest forward) leaves the guide
+    double t_middle;                ///< middle adaptor (of exactly three) leaves the guide
+    double t_rear;                  ///< rear adaptor leaves the guide: the rocket has left
     double t_exit[LD_MAX_ADAPTORS]; ///< the same for every adaptor, in the model's order
     double exit_speed;              ///< [m/s] s_dot at t_rear, relative to the tube
     double inertial_speed;          ///< [m/s] of O1 in I at t_rear

@@ -35,12 +35,12 @@ static const quantity ignition[] = {
 };
 static const quantity instants[] = {
     {"t_release", "s", "the lock releases", ROCKET(t_release), KEPT, LINE("lock release", "ms", MILLI, 4)},
-    {"t_front", "s", "the front adaptor (the one farthest forward) passes the tip", ROCKET(t_front), KEPT},
-    {"t_middle", "s", "the middle adaptor (of exactly three) passes the tip", ROCKET(t_middle), KEPT},
-    {"t_rear", "s", "the rear adaptor passes the tip: the rocket has left", ROCKET(t_rear), KEPT},
+    {"t_front", "s", "the front adaptor (the one farthest forward) leaves the guide", ROCKET(t_front), KEPT},
+    {"t_middle", "s", "the middle adaptor (of exactly three) leaves the guide", ROCKET(t_middle), KEPT},
+    {"t_rear", "s", "the rear adaptor leaves the guide: the rocket has left", ROCKET(t_rear), KEPT},
 };
 static const quantity exits[] = {
-    {"t_exit.%s", "s", "adaptor %s passes the tip", ADAPTOR(t_exit), LINE("%s adaptor leaves", "ms", MILLI, 4)},
+    {"t_exit.%s", "s", "adaptor %s leaves the guide", ADAPTOR(t_exit), LINE("%s adaptor leaves", "ms", MILLI, 4)},
 };
 static const quantity at_exit[] = {
     {"exit_speed", "m/s", "s_dot at t_rear, relative to the tube", ROCKET(exit_speed), KEPT, LINE("exit speed", "m/s", 1, 4)},

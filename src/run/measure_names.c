@@ -5,6 +5,7 @@
 
 #include "base/suggestion.h"
 #include "flight/flight_history.h"
+#include "model/guide.h"
 #include "model/parts.h"
 #include "state/history.h"
 #include "systems/bases/base.h"
@@ -176,15 +177,16 @@ bool measure_instant_named(const ld_model *model, const char *name, measure_inst
     return false;
 }
 
-// Which comes first: of exits that of the adaptor farther forward; the motor may burn beyond the
-// apogee.
+// Which comes first: of exits that at the lesser travel; the motor may burn beyond the apogee.
 int measure_compare_instants(const ld_model *model, measure_instant a, measure_instant b)
 {
     const ld_adaptor *adaptor = model_rocket(model)->adaptor;
+    const ld_tubes *tubes = model_tubes(model);
     if (a.kind == INSTANT_APOGEE && b.kind == INSTANT_BURNOUT)
         return -1;
     if (a.kind != b.kind || a.kind != INSTANT_EXIT)
         return (a.kind > b.kind) - (a.kind < b.kind);
-    return (adaptor[a.adaptor].at < adaptor[b.adaptor].at) -
-           (adaptor[a.adaptor].at > adaptor[b.adaptor].at);
+    double later = guide_exit_station(tubes, &adaptor[a.adaptor]) -
+                   guide_exit_station(tubes, &adaptor[b.adaptor]);
+    return (later > GUIDE_TOGETHER) - (later < -GUIDE_TOGETHER);
 }

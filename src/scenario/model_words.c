@@ -268,6 +268,8 @@ static void describe_rocket(FILE *stream, const ld_model *model)
         const ld_adaptor *adaptor = &rocket->adaptor[i];
         fprintf(stream, "%s %s (%s", i ? "," : "", VISIBLE(adaptor->name), METRES(adaptor->at));
         describe_clearance(stream, model, i);
+        if (adaptor->leaves_at > 0)
+            fprintf(stream, ", leaves at %s", METRES(adaptor->leaves_at));
         fputc(')', stream);
     }
     if (contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))

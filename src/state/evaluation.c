@@ -11,7 +11,7 @@ static void find_air(const launch_state *self, double t, const double *y, launch
 {
     const launching_system *launching = &self->launcher.launching;
     v3 r = launching_rocket_point(launching, y, input->mass.c);
-    double left = launching->tube.flexible.length - y[launching->layout.x + X_S];
+    double left = launching->adaptors.end[0] - y[launching->layout.x + X_S];
     input->air = flight_air_at(self->air, t, r, left);
     if (model_has_open_air(self->model))
         input->aerodynamics = &self->air->aerodynamics;

@@ -104,6 +104,17 @@ static double wall_value(const launch_state *self, int i, int wall, const launch
     return law->by_touch ? touch_of(wall_penetration(self, i, wall, out)) : away;
 }
 
+// Of adaptors that leave together the first one's.
+static double exit_value(const launch_state *self, int i, const adaptor_report *adaptor)
+{
+    const launching_system *launching = &self->launcher.launching;
+    const adaptor_set *adaptors = &launching->adaptors;
+    const double away = 1;
+    if (self->phase.passed[i] || adaptors->leaves_with[i] != i)
+        return away;
+    return (adaptors->end[i] - adaptor[i].s) / launching->tube.flexible.length;
+}
+
 static double value_of(event one, const launch_state *self, const launcher_output *out)
 {
     const launching_phase *phase = &self->phase;
@@ -122,10 +133,8 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
         return phase->locked && !self->held_down
                    ? 1 - out->launching.lock_force / self->rocket->lock.release_force
                    : away;
-    case EVENT_EXIT: {
-        double length = launching->tube.flexible.length;
-        return phase->passed[one.index] ? away : (length - adaptor[one.index].s) / length;
-    }
+    case EVENT_EXIT:
+        return exit_value(self, one.index, adaptor);
     case EVENT_TOUCH:
         return wall_value(self, one.index, 0, &out->launching);
     case EVENT_SURFACE: {

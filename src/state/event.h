@@ -6,7 +6,7 @@
 
 typedef enum event_kind {
     EVENT_RELEASE, // the lock carries its release force
-    EVENT_EXIT,    // adaptor `index` passes the tip
+    EVENT_EXIT,    // adaptor `index` leaves the guide, with those that leave with it
     EVENT_TOUCH,   // adaptor `index` begins or ends to touch the tube (law lankarani-nikravesh, or
                    // with a course)
     EVENT_SURFACE, // an adaptor a surface, index = adaptor * surfaces + surface (the same)

@@ -30,10 +30,10 @@ launching_phase simulation_start_phase(const launch_state *self)
     const ld_rocket *rocket = self->rocket;
     phase.breech = rocket->start_at;
     phase.breech_speed = rocket->contact.reference_speed;
-    // so near the tip that rounding and the tube's bend decide, an adaptor counts as out
-    double out = model_tubes(self->model)->length - 1e-6;
+    const adaptor_set *adaptors = &self->launcher.launching.adaptors;
     for (int i = 0; i < rocket->adaptor_count; i++) {
-        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= out;
+        // so near its end that rounding and the tube's bend decide, an adaptor counts as out
+        phase.passed[i] = rocket->start_at + rocket->adaptor[i].at >= adaptors->end[i] - 1e-6;
         phase.touch_speed[i] = rocket->contact.reference_speed;
         for (int k = 0; k < LD_MAX_SURFACES; k++)
             phase.surface_speed[i][k] = rocket->contact.reference_speed;

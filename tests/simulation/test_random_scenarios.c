@@ -65,6 +65,8 @@ static const char *const kinds[] = {
     "tubes.initial_shape.offsets=[[0 m, 0 mm, 0 mm, 0 deg], [1 m, 0.3 mm, -0.1 mm, 0.1 deg], [100 "
     "m, "
     "1 mm, 2 mm, 1 deg]]",
+    "rocket.adaptors=[{name: rear, at: 0 m, clearance: 0.3 mm, leaves_at: 2 m}, {name: front, at: "
+    "1.9 m, clearance: 0.4 mm, leaves_at: 2.9 m}]",
     "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
     "tubes.wind_drag=[{from: 0 m, to: 1.5 m, width: 30 cm, coefficient: 1.2}, {from: 1 m, to: 2.9 "
     "m, "

@@ -683,6 +683,25 @@ static double penetration_of(const launch_run *launch, const dense_launch_output
                                        : output->contact[number].penetration;
 }
 
+static double exit_station(const ld_model *model, int i)
+{
+    double given = model->rocket.adaptor[i].leaves_at;
+    return given > 0 ? given : model->tubes.length;
+}
+
+// The first of those that a straight guide lets go with adaptor i.
+static int exit_leader(const ld_model *model, int i)
+{
+    const ld_adaptor *adaptor = model->rocket.adaptor;
+    for (int j = 0; j < i; j++) {
+        double apart =
+            exit_station(model, j) - adaptor[j].at - (exit_station(model, i) - adaptor[i].at);
+        if (fabs(apart) < 1e-6)
+            return exit_leader(model, j);
+    }
+    return i;
+}
+
 // Positive once the event has happened; negative where it cannot (any more).
 static double event(const launch_run *launch, int which, const dense_launch_output *output)
 {
@@ -700,8 +719,9 @@ static double event(const launch_run *launch, int which, const dense_launch_outp
         return held ? -held * output->slide_press[support][k] : -1;
     }
     if (which < TOUCH)
-        return which < model->rocket.adaptor_count && !launch->passed[which]
-                   ? output->contact[which].s - model->tubes.length
+        return which < model->rocket.adaptor_count && !launch->passed[which] &&
+                       exit_leader(model, which) == which
+                   ? output->contact[which].s - exit_station(model, which)
                    : -1;
     int number = which - TOUCH;
     bool latches = model->rocket.contact.law == LD_CONTACT_LANKARANI_NIKRAVESH;
@@ -766,6 +786,23 @@ static void watch(launch_run *launch, const dense_launch_output *output)
     launch->s = output->s;
 }
 
+static void note_exit(launch_run *launch, int which, double since)
+{
+    dense_summary *summary = launch->summary;
+    const ld_rocket *rocket = &launch->model->rocket;
+    launch->passed[which] = true;
+    summary->t_exit[which] = since;
+    int ahead = 0;
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        ahead += rocket->adaptor[i].at > rocket->adaptor[which].at;
+    if (ahead == 0)
+        summary->t_front = since;
+    if (ahead == 1 && rocket->adaptor_count == 3)
+        summary->t_middle = since;
+    if (which == 0)
+        summary->t_rear = since;
+}
+
 static void note_event(launch_run *launch, int which, double t, const dense_launch_output *output)
 {
     dense_summary *summary = launch->summary;
@@ -793,17 +830,11 @@ static void note_event(launch_run *launch, int which, double t, const dense_laun
             launch->touch_speed[number] = output->contact[number].penetration_rate;
         return;
     }
-    launch->passed[which] = true;
-    summary->t_exit[which] = since;
-    int ahead = 0;
-    for (int i = 0; i < rocket->adaptor_count; i++)
-        ahead += rocket->adaptor[i].at > rocket->adaptor[which].at;
-    if (ahead == 0)
-        summary->t_front = since;
-    if (ahead == 1 && rocket->adaptor_count == 3)
-        summary->t_middle = since;
-    if (which == 0)
-        summary->t_rear = since;
+    // with those that leave with it; all with the rear one
+    for (int i = rocket->adaptor_count - 1; i > which; i--)
+        if (!launch->passed[i] && (which == 0 || exit_leader(launch->model, i) == which))
+            note_exit(launch, i, since);
+    note_exit(launch, which, since);
 }
 
 static void summarise(launch_run *launch, double t, const double *x,

@@ -400,6 +400,24 @@ static void draw_measures(uint64_t *seed, ld_model *model)
     }
 }
 
+// Ends of the guide of their own: the rear adaptor's last, some together with it or another one.
+static void draw_ends(uint64_t seed, const ld_tubes *tubes, ld_rocket *rocket)
+{
+    if (!chance(&seed, 0.25))
+        return;
+    double start = rocket->start_at, last = between(&seed, start, tubes->length), early[2];
+    rocket->adaptor[0].leaves_at = last;
+    for (int k = 0; k < 2; k++)
+        early[k] = between(&seed, start, last);
+    for (int i = 1; i < rocket->adaptor_count; i++) {
+        ld_adaptor *one = &rocket->adaptor[i];
+        double with_rear = fmin(tubes->length, last + one->at);
+        one->leaves_at = fmin(with_rear, early[choice(&seed, 2)] + one->at);
+        if (chance(&seed, 0.3))
+            one->leaves_at = with_rear;
+    }
+}
+
 void draw_random_model(uint64_t seed, ld_model *model)
 {
     reference_model(model);
@@ -433,6 +451,7 @@ void draw_random_model(uint64_t seed, ld_model *model)
     draw_stations(seed ^ 0x7f4a7c15, &model->tubes);
     draw_initial_shape(seed ^ 0x2545f491, &model->tubes);
     draw_wind_drag(seed ^ 0x6a09e667, model);
+    draw_ends(seed ^ 0x1b873593, &model->tubes, &model->rocket);
 }
 
 // ---- running ----

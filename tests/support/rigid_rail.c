@@ -184,8 +184,11 @@ static double station(const rail_run *run, double t, const body_state *x, double
 static double happened(const rail_run *run, int phase, double t, double middle, const body_state *x)
 {
     const ld_rocket *rocket = &run->model->rocket;
-    if (phase > 0)
-        return station(run, t, x, rocket->adaptor[2 - phase].at) - run->model->tubes.length;
+    if (phase > 0) {
+        const ld_adaptor *next = &rocket->adaptor[2 - phase];
+        double end = next->leaves_at > 0 ? next->leaves_at : run->model->tubes.length;
+        return station(run, t, x, next->at) - end;
+    }
     v3 a, w_dot;
     double multiplier[ROWS];
     accelerate(run, t, middle, x, &a, &w_dot, multiplier);

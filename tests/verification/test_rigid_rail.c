@@ -141,6 +141,7 @@ typedef struct scenario {
     void (*guide)(ld_model *);
     void (*base)(ld_model *);
     bool holds_roll;
+    double ends[2]; // [m] of the rear shoe and the front one; 0: the tip
 } scenario;
 
 static void pivots_about_its_rear_shoe(void **state)
@@ -152,6 +153,8 @@ static void pivots_about_its_rear_shoe(void **state)
     rail(&model);
     s->guide(&model);
     s->base(&model);
+    for (int i = 0; i < 2; i++)
+        model.rocket.adaptor[i].leaves_at = s->ends[i] > 0 ? s->ends[i] : NAN;
     assert_true(rigid_rail_launch(&model, model.tubes.guide.line, s->holds_roll, 2e-4, &exit));
     const double limit[FIGURES] = {exit.t_release,  exit.t_front,  exit.t_rear,
                                    exit.exit_speed, exit.pitch,    exit.yaw,
@@ -161,7 +164,7 @@ static void pivots_about_its_rear_shoe(void **state)
     stiffen(&model, 8e9);
     launch(&model, stiffer);
     printf("  %s\n", s->name);
-    double rate = hypot(exit.pitch_rate, exit.yaw_rate);
+    double rate = fmax(0.1, hypot(exit.pitch_rate, exit.yaw_rate)); // 0: both shoes at once
     const double scale[FIGURES] = {exit.t_rear, exit.t_rear, exit.t_rear, exit.exit_speed, 1, 1,
                                    rate,        rate,        rate};
     for (int i = 0; i < FIGURES; i++) {
@@ -170,6 +173,8 @@ static void pivots_about_its_rear_shoe(void **state)
                half, off);
         CHECK_BELOW("  extrapolated, relative", 2 * off - half, 1e-6);
     }
+    if (rate == 0.1)
+        return;
     // to first order in the flexibility
     double order =
         (stiff[PITCH_RATE] - limit[PITCH_RATE]) / (stiffer[PITCH_RATE] - limit[PITCH_RATE]);
@@ -181,10 +186,10 @@ static void pivots_about_its_rear_shoe(void **state)
 int main(void)
 {
     static scenario scenarios[] = {
-        {"tower, pitching base", tower, pitching, false},
-        {"T-slot, fixed base", t_slot, resting, true},
-        {"T-slot, accelerating base", t_slot, surging, true},
-        {"T-slot, pitching base, in the wind", t_slot, pitching_in_wind, true},
+        {"tower, pitching base", tower, pitching, false, {2.9, 2.7}},
+        {"T-slot, fixed base", t_slot, resting, true, {0}},
+        {"T-slot, accelerating base, both shoes at once", t_slot, surging, true, {1, 2.9}},
+        {"T-slot, pitching base, in the wind", t_slot, pitching_in_wind, true, {0}},
     };
     enum { COUNT = sizeof scenarios / sizeof *scenarios };
     struct CMUnitTest tests[COUNT];

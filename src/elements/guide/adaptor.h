@@ -9,6 +9,7 @@
 #include "elements/guide/contact.h"
 #include "elements/rocket.h"
 #include "model/blocks/rocket.h"
+#include "model/guide.h"
 
 enum { IDEAL_MOST_ADAPTORS = 2 }; // that can be held on the axis: three hold more than there is
 
@@ -16,6 +17,8 @@ typedef struct adaptor_set {
     int count;
     double at[LD_MAX_ADAPTORS];        // [m] from the rear adaptor
     double clearance[LD_MAX_ADAPTORS]; // [m] radial
+    double end[LD_MAX_ADAPTORS];       // [m] station of the guide at which it leaves
+    int leaves_with[LD_MAX_ADAPTORS];  // adaptor at whose end it leaves: itself, or one before
     contact_law law;
 } adaptor_set;
 
@@ -162,7 +165,7 @@ LD_INLINE void adaptor_add(const int lanes, const adaptor_set *self, const tube_
     apply_at_section(lanes, guide, adaptor.foot, W, v3_neg(force), &now->on_tube);
 }
 
-// All that have not passed the tip; of those that are held ideal.h reports.
+// All that have not left; of those that are held ideal.h reports.
 LD_INLINE void adaptors_add(const int lanes, const adaptor_set *self, const tube_system *guide,
                             launching_instant *now)
 {
@@ -171,12 +174,27 @@ LD_INLINE void adaptors_add(const int lanes, const adaptor_set *self, const tube
             adaptor_add(lanes, self, guide, i, now);
 }
 
-LD_INLINE void adaptors_build(const ld_rocket *rocket, adaptor_set *self)
+// Those that would leave a straight guide together do so on one that bends: with the first of them.
+LD_INLINE int adaptor_leaves_with(const ld_tubes *tubes, const ld_rocket *rocket, int i,
+                                  const int leaves_with[])
+{
+    double station = guide_exit_station(tubes, &rocket->adaptor[i]);
+    for (int j = 0; j < i; j++) {
+        double other = guide_exit_station(tubes, &rocket->adaptor[j]);
+        if (fabs(station - other) < GUIDE_TOGETHER)
+            return leaves_with[j];
+    }
+    return i;
+}
+
+LD_INLINE void adaptors_build(const ld_tubes *tubes, const ld_rocket *rocket, adaptor_set *self)
 {
     self->count = rocket->adaptor_count;
     for (int i = 0; i < rocket->adaptor_count; i++) {
         self->at[i] = rocket->adaptor[i].at;
         self->clearance[i] = rocket->adaptor[i].clearance;
+        self->end[i] = guide_end(tubes, &rocket->adaptor[i]);
+        self->leaves_with[i] = adaptor_leaves_with(tubes, rocket, i, self->leaves_with);
     }
     self->law = contact_law_of(&rocket->contact);
 }

@@ -1,9 +1,9 @@
 // Drag of the guide: a force against sliding, given as such (model.md, section 5).
 //
-// D over the travel s' = s - start_at is that of all n adaptors; until it passes the tip each takes
-// D/n. On the rocket at W of the adaptor's section, the opposite on the section at the same point,
-// with v = e_x . v_rel there:  -D/n v/sqrt(v^2 + v_eps^2) e_x.  W is the adaptor's centre, on
-// surfaces the middle of their points. None while a lock holds.
+// D over the travel s' = s - start_at is that of all n adaptors; until it leaves the guide each
+// takes D/n. On the rocket at W of the adaptor's section, the opposite on the section at the same
+// point, with v = e_x . v_rel there:  -D/n v/sqrt(v^2 + v_eps^2) e_x.  W is the adaptor's centre,
+// on surfaces the middle of their points. None while a lock holds.
 #ifndef LD_ELEMENTS_DRAG_H
 #define LD_ELEMENTS_DRAG_H
 

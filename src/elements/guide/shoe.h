@@ -210,7 +210,7 @@ LD_INLINE void shoe_add(const int lanes, const surface_set *self, const adaptor_
     shoe_apply(lanes, self, guide, &touch, now);
 }
 
-// All that have not passed the tip.
+// All that have not left.
 LD_INLINE void shoes_add(const int lanes, const surface_set *self, const adaptor_set *adaptors,
                          const tube_system *guide, launching_instant *now)
 {

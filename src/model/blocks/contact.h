@@ -12,6 +12,7 @@ typedef struct ld_adaptor {
     double at;        ///< [m] l_i, from the rear adaptor
     double clearance; ///< [m] radial; not used by laws that hold on both sides, NaN there if not
                       ///< given. On surfaces: added to their gaps at this shoe, NaN: nothing
+    double leaves_at; ///< [m] station of the guide at which its contact ends; NaN: the tip
 } ld_adaptor;
 
 /// The contact laws, the first by default: each with its word and its traits. Their forces stand in

@@ -954,6 +954,9 @@ static const field_row adaptor_fields[] = {
      NO_DEFAULT("required in a bore except with `bilateral`, `ideal`"),
      .doc = "radial: rear inner radius of the tube less radius of the adaptor, > 0; on surfaces: "
             "added to each gap of this shoe"},
+    {"leaves_at", NUMBER(ld_adaptor, leaves_at, "m"), ABOVE_TO(0, 100), NO_DEFAULT("tubes.length"),
+     .doc = "station of the guide at which its contact ends, at most the tip's; the rear adaptor "
+            "leaves last, or with others"},
     {0}};
 static const field_block adaptor_block = {.fields = adaptor_fields};
 

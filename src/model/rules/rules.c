@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <strings.h>
 
+#include "model/guide.h"
 #include "model/masses.h"
 #include "model/model.h"
 #include "model/moist_air.h"
@@ -408,6 +409,27 @@ static void mass_rules(const rule_set *rules)
         inertia_rule(rules, "rocket.empty.inertia", rocket->empty.inertia, rocket->products);
 }
 
+// The rocket is out with its rear adaptor, so none leaves after that.
+static void leaving_rules(const rule_set *rules, int i)
+{
+    const ld_model *model = rules->model;
+    const ld_tubes *tubes = &model->tubes;
+    const ld_rocket *rocket = &model->rocket;
+    const ld_adaptor *adaptor = &rocket->adaptor[i];
+    double last = guide_end(tubes, &rocket->adaptor[0]);
+    if (adaptor->leaves_at > tubes->length)
+        report_broken(rules, "rocket.adaptors.#.leaves_at", i + 1,
+                      "%g m is beyond the tube's tip at %g m", adaptor->leaves_at, tubes->length);
+    else if (i == 0 && adaptor->leaves_at <= rocket->start_at)
+        report_broken(rules, "rocket.adaptors.1.leaves_at", 0,
+                      "%g m is not beyond the start at %g m", adaptor->leaves_at, rocket->start_at);
+    else if (guide_exit_station(tubes, adaptor) > last + GUIDE_TOGETHER)
+        report_broken(rules, "rocket.adaptors.#.leaves_at", i + 1,
+                      "the rear adaptor, at its end at %g m, would leave before this one; expected "
+                      "at most %g m",
+                      last, last + adaptor->at);
+}
+
 static void adaptor_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -433,6 +455,8 @@ static void adaptor_rules(const rule_set *rules)
     if (rocket->start_at >= model->tubes.length)
         report_broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
                       rocket->start_at, model->tubes.length);
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        leaving_rules(rules, i);
 }
 
 // Adaptors that are held on the axis exactly.
@@ -548,7 +572,7 @@ static void over_travel_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
     const ld_table *table = &model->tubes.pressure.over_travel;
-    double way = model->tubes.length - model->rocket.start_at;
+    double way = guide_end(&model->tubes, model->rocket.adaptor) - model->rocket.start_at;
     rising_rule(rules, "tubes.pressure.over_travel.#", table, "m", false);
     if (table->rows == 0)
         return;
@@ -558,7 +582,7 @@ static void over_travel_rules(const rule_set *rules)
                       "the first travel must be 0 m, not %g m", table->data[0]);
     if (last < way)
         report_broken(rules, "tubes.pressure.over_travel", 0,
-                      "ends at %g m; the rocket travels %g m to the tip", last, way);
+                      "ends at %g m; the rocket travels %g m to its exit", last, way);
 }
 
 static void pressure_rules(const rule_set *rules)

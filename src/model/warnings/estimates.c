@@ -4,6 +4,7 @@
 
 #include "math/functions.h"
 #include "model/fields/field.h"
+#include "model/guide.h"
 #include "model/model.h"
 #include "model/parts.h"
 
@@ -193,7 +194,7 @@ double estimate_time_in_tube(const plausible_entry *at)
     const ld_model *model = at->model;
     double weight = estimate_weight_along(at);
     double force = peak_drive(at) - (isnan(weight) ? 0 : weight);
-    double way = model->tubes.length - model->rocket.start_at;
+    double way = guide_end(&model->tubes, model->rocket.adaptor) - model->rocket.start_at;
     return force > 0 && model_has_launcher(model) ? sqrt(2 * way * model->rocket.full.mass / force)
                                                   : NAN;
 }

@@ -90,6 +90,12 @@ static plausible_pair last_mach(const plausible_entry *at)
     return plausible_compare(last, ends ? gain / sound : NAN);
 }
 
+static plausible_pair leaving(const plausible_entry *at)
+{
+    const ld_rocket *rocket = &at->model->rocket;
+    return plausible_compare(at->own, rocket->start_at + rocket->adaptor[at->i].at);
+}
+
 #define BORE .other = "the bore's radius"
 #define FRONT .other = "the position of the foremost adaptor"
 
@@ -130,6 +136,11 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "this adaptor is never in the tube"},
     {"rocket.adaptors.#.clearance", .unit = "m", BORE, NO_LOW, .high = 0.1,
      .why = "a clearance is a small part of the bore"},
+    {"rocket.adaptors.#.leaves_at", .unit = "m", .other = "its station at the start", .low = 1,
+     NO_HIGH, .find = leaving, .of = "rocket.start_at",
+     .why = "this adaptor is never in the guide"},
+    {"rocket.adaptors.#.leaves_at", .unit = "m", .other = "tubes.length", .low = 0.3, NO_HIGH,
+     .why = "most of the guide is beyond its end"},
     {"rocket.contact.stiffness", "the frequency of the rocket on it", .unit = "Hz", .low = 2,
      .high = 5000, .form = PLAUSIBLE_FREQUENCY, .b = "rocket.mass",
      .why = "metal on metal is stiff, but a touch lasts longer than 0.1 ms"},

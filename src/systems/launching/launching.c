@@ -33,7 +33,7 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 {
     self->rocket = rocket;
     const ld_tubes *tubes = model_tubes(self->model);
-    adaptors_build(rocket, &self->adaptors);
+    adaptors_build(tubes, rocket, &self->adaptors);
     surfaces_build(&tubes->guide, rocket, &self->surfaces);
     drag_build(rocket, &self->surfaces, &self->drag);
     slot_build(&tubes->slot, rocket, &self->slot);
