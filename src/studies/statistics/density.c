@@ -123,10 +123,10 @@ ld_status density_of(const double *x, const double *y, size_t count, double effe
     turn_to_axes(x, y, count, &e, points.at);
     lay_grid(map, &e, &points);
     share_out(map, &points);
-    for (size_t k = 0; k < DENSITY_GRID; k++) {
+    for (size_t k = 0; k < DENSITY_GRID; k++)
         smooth(map->value[k], 1, points.kernel[1]);
+    for (size_t k = 0; k < DENSITY_GRID; k++) // after all rows: columns mix them
         smooth(&map->value[0][k], DENSITY_GRID, points.kernel[0]);
-    }
     for (int k = 0; k < DENSITY_GRID; k++)
         map->value[0][k] = map->value[LAST][k] = map->value[k][0] = map->value[k][LAST] = 0;
     for (size_t n = 0; n < count; n++)
