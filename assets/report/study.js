@@ -125,12 +125,12 @@ section("measured", "Measured and simulated", launches.length ? measured(data, l
   grid(launches.map((result) => beside(data, result))));
 section("scatter", "Scatter", besides === "scatter" ? null : grid(clouds));
 const openly = data.series.length === 1 && data.pairs.some(({ series: [own] }) => own && statedOf(own).length > 0); // else folded
-section("footprints", "Footprints (range safety)", openly ? footprints(data) : null);
+section("footprints", "Footprints (range safety)", ...(openly ? footprints(data) : []));
 section("distributions", "Results", grid(distributions), sameEverywhere(),
   rest(...parts.flatMap(partOf)));
 section("numbers", "Numbers", rest(data.series.length > 0 ? folded("What was run", counts(data)) : null,
   folded("Statistics", ...(results.length ? statistics(data, results) : [])), folded("Ellipses", ellipses(data)),
-  openly ? null : folded("Footprints (range safety)", footprints(data)),
+  openly ? null : folded("Footprints (range safety)", ...footprints(data)),
   folded("Failed samples", failures(data)), folded("Plan and factors", ...plans(data))));
 section("origin", "Origin", ...data.studies.filter((study) => study.origin).flatMap((study) => [
   data.studies.length > 1 ? element("h3", {}, study.label) : null, originBlock(study.origin, "study --again")]));

@@ -178,8 +178,11 @@ function contoursOf(own, f) {
 // What stands for the form of a cloud: ellipses where it may be normal, else contours; nothing where those are left out.
 export const isNormal = ({ normality }) => Boolean(normality) && (!normality.tested || normality.normal === 1);
 
+// Whether a pair is of where lines lie: its points are places, twelve of each.
+export const isLine = ({ x }) => x === "line.x";
+
 // What the clouds are, as a line below their plot.
-function formOf(list) {
+function formOf(list, line) {
   const safe = list.filter(({ own }) => hasFootprint(own)), rest = list.filter(({ own }) => !hasFootprint(own));
   const normal = rest.filter(({ own }) => own.ellipse && isNormal(own)), drawn = rest.filter(({ own }) => own.contours);
   const refused = rest.filter(({ own }) => own.normality && !isNormal(own)), untested = normal.filter(({ own }) => !own.normality.tested);
@@ -188,7 +191,7 @@ function formOf(list) {
   const shares = [...new Set(safe.flatMap(({ own }) => statedOf(own).map(({ share }) => percent(share).replace(" ", "\u00a0"))))];
   const chance = list.length === 1 && list[0].own.normality?.tested ? `, p ${list[0].own.normality.chance.map((p) => readable(p, 2)).join(" and ")}` : "";
   return [
-    safe.length ? `footprints${who(safe)}: ${shares.join(", ")} of landings lie within` : "",
+    safe.length ? `footprints${who(safe)}: ${shares.join(", ")} of ${line ? "the line lies" : "landings lie"} within` : "",
     normal.length ? `ellipses${who(normal)}: one standard deviation and 95\u00a0%` : "",
     untested.length ? "too few points for a test of normality" : normal.length ? `normal by Mardia's test at ${level}${chance}` : "",
     drawn.length ? `contours${who(drawn)}: 50\u00a0% and 95\u00a0% of the points lie within` : "",
@@ -238,7 +241,7 @@ export function scatter(data, pair) {
     },
     csv: () => csvOf(["series", "sample", "rocket", `${pair.x} [${pair.unit}]`, `${pair.y} [${pair.unit}]`],
       points.map((p) => [p.series.label, p.sample, p.rocket, ...p.si])),
-    note: [shown, formOf(list)].filter(Boolean).join("; "),
+    note: [shown, formOf(list, isLine(pair))].filter(Boolean).join("; "),
   });
 }
 

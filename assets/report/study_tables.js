@@ -2,7 +2,7 @@
 import { colourOf } from "./chart.js";
 import { readable } from "./data.js";
 import { element } from "./page.js";
-import { isNormal } from "./study_plots.js";
+import { isLine, isNormal } from "./study_plots.js";
 import { describe } from "./study_results.js";
 
 const cell = (content, className = "") => element("td", { className }, content);
@@ -190,19 +190,22 @@ export function ellipses(data) {
   return card("Ellipses", element("table", {}, element("tr", {}, ...heads.map((name) => head(name))), ...rows));
 }
 
-// Within which landings lie, on what that rests; where there are too few landings, how many it takes.
-export function footprints(data) {
-  const several = data.series.length > 1;
-  const large = data.pairs.some(({ series }) => series.some((own) => own?.footprint?.regions.some(({ estimates }) => estimates[1][0] > 1e5)));
-  const rows = data.pairs.flatMap(({ series }) => series.flatMap((own, s) => (own?.footprint?.regions ?? []).map((region) => {
+// Within which landings or lines lie, on what that rests; where there are too few, how many it takes.
+export const footprints = (data) => data.pairs.map((pair) => footprintsOf(data, pair)).filter(Boolean);
+
+function footprintsOf(data, pair) {
+  const several = data.series.length > 1, places = isLine(pair) ? "places" : "landings";
+  const large = pair.series.some((own) => own?.footprint?.regions.some(({ estimates }) => estimates[1][0] > 1e5));
+  const rows = pair.series.flatMap((own, s) => (own?.footprint?.regions ?? []).map((region) => {
     const { share, needed, independent, stated, estimates: [content, area, distance] } = region, many = Math.round(independent);
     const front = [several ? element("td", {}, seriesName(data.series[s], s)) : null, head(`${readable(100 * share, 4)}\u00a0%`, "row"), cell(`${many}`), cell(`${needed}`)];
-    if (stated !== 1) return element("tr", {}, ...front, element("td", { colSpan: 3, className: "text" }, many < needed ? "too few landings" : "landings too far apart: more are needed"));
+    if (stated !== 1) return element("tr", {}, ...front, element("td", { colSpan: 3, className: "text" }, many < needed ? `too few ${places}` : `${places} too far apart: more are needed`));
     return element("tr", {}, ...front, estimate(content, 100), estimate(area, large ? 1e-6 : 1), estimate(distance, 1));
-  })));
+  }));
   if (rows.length === 0) return null;
-  return card("Footprints: where landings lie, with 95\u00a0% intervals", element("table", { className: "statistics footprints" },
-    element("tr", {}, ...(several ? [head("")] : []), ...["share", "independent landings", "needed", "lie within [%]", `area [${large ? "km²" : "m²"}]`, "farthest from the launch point [m]"].map((name) => head(name))), ...rows));
+  const [what, from] = isLine(pair) ? ["the line lies", "the origin of I"] : ["landings lie", "the launch point"];
+  return card(`Footprints: where ${what}, with 95\u00a0% intervals`, element("table", { className: "statistics footprints" },
+    element("tr", {}, ...(several ? [head("")] : []), ...["share", `independent ${places}`, "needed", "lie within [%]", `area [${large ? "km²" : "m²"}]`, `farthest from ${from} [m]`].map((name) => head(name))), ...rows));
 }
 
 export function failures(data) {

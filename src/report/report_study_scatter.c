@@ -22,7 +22,7 @@ typedef struct contour_writer {
 typedef struct scatter_choice {
     size_t most;    // points, about
     bool contours;  // of density, too
-    bool footprint; // these are landing points
+    bool footprint; // these are landing points, or places of lines
 } scatter_choice;
 
 static void write_points(FILE *json, const study_values *values, size_t most)
@@ -186,6 +186,41 @@ static ld_status write_scatter(FILE *json, const study_values *values, const sca
     return status;
 }
 
+// Two results of all series; `pair` NULL: where their lines lie.
+static ld_status write_pair(FILE *json, study_source *source, const study_pair *pair,
+                            const scatter_choice *choice)
+{
+    static const study_pair line = {"Where the line lies", {"line.x", "line.z"}, "m"};
+    const study_pair *of = pair ? pair : &line;
+    ld_status status = LD_OK;
+    fprintf(json, "\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"", of->title,
+            of->name[0], of->name[1], of->unit);
+    fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
+    for (int i = 0; i < source->series_count && !status; i++) {
+        study_series *series = &source->series[i];
+        if (pair)
+            study_read_values(source, series, pair->name, 2);
+        else
+            study_read_line(source, series);
+        fputs(i ? ",\n" : "\n", json);
+        if (series->values.count)
+            status = write_scatter(json, &series->values, choice);
+        else
+            fputs("null", json);
+    }
+    fputs("]}", json);
+    return status;
+}
+
+static bool any_lines(const study_source *source)
+{
+    const char *nearest;
+    for (int i = 0; i < source->series_count; i++)
+        if (study_data_find(source->series[i].data, "line.1.x", &nearest))
+            return true;
+    return false;
+}
+
 ld_status study_write_pairs(FILE *json, study_source *source)
 {
     ld_status status = LD_OK;
@@ -194,21 +229,13 @@ ld_status study_write_pairs(FILE *json, study_source *source)
     scatter_choice choice = {.most = fit < MOST_POINTS ? fit : MOST_POINTS,
                              .contours = source->series_count <= REPORT_OVERLAID};
     for (size_t p = 0; p < STUDY_PAIRS && !status; p++) {
-        const study_pair *pair = &study_pairs[p];
         choice.footprint = p == STUDY_LANDING;
-        fprintf(json, "%s\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"",
-                p ? "," : "", pair->title, pair->name[0], pair->name[1], pair->unit);
-        fprintf(json, ",\"radius\":%.17g,\"series\":[", ellipse_radius);
-        for (int i = 0; i < source->series_count && !status; i++) {
-            study_series *series = &source->series[i];
-            study_read_values(source, series, pair->name, 2);
-            fputs(i ? ",\n" : "\n", json);
-            if (series->values.count)
-                status = write_scatter(json, &series->values, &choice);
-            else
-                fputs("null", json);
-        }
-        fputs("]}", json);
+        fputs(p ? "," : "", json);
+        status = write_pair(json, source, &study_pairs[p], &choice);
+        if (status || p != STUDY_LANDING || !any_lines(source))
+            continue;
+        fputc(',', json);
+        status = write_pair(json, source, NULL, &choice);
     }
     return status;
 }

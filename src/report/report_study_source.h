@@ -44,4 +44,7 @@ void study_read(study_source *source, study_series *series, const study_column *
 void study_read_values(study_source *source, study_series *series, const char *const *name,
                        int columns);
 
+// Reads where a series' lines lie (study_data_read_line()); none where it has none.
+void study_read_line(study_source *source, study_series *series);
+
 #endif

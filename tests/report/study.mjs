@@ -258,6 +258,20 @@ async function checkWithout(browser) {
   await leave(page);
 }
 
+// Where lines lie: twelve places of each, in a plot and a table of their own.
+async function checkLine(browser) {
+  const out = join(folder, "thrown");
+  launchdyn("study", example("line-thrower.yaml"), "--set", "environment.wind={speed: 5 m/s, heading: 90 deg}",
+    "--set", "scatter={samples: 5, factors: {tubes.pressure.scale: {normal: 2 %}}}", "--quiet", "--out", out);
+  const page = await open(browser, reportOf("thrown.html", { out }), { width: 1400 });
+  await unfold(page);
+  const dots = await page.$eval(`${panel("Where the line lies")} .points`, (node) => node.getAttribute("d").match(/M/g).length);
+  check("places of five lines", dots === 60, dots);
+  const rows = await page.$$eval(".footprints tr", (list) => list.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  check("landings and lines", rows.filter(([name]) => name === "95\u00a0%").map((row) => row.at(-1)).join() === "too few landings,too few places", rows);
+  await leave(page);
+}
+
 // Landing points within their footprint, as it is drawn, and what its table says.
 async function checkFootprints(browser) {
   console.log("footprints");
@@ -280,6 +294,7 @@ async function checkFootprints(browser) {
   const note = await page.textContent(`${panel("Landing points")} .shown`);
   check("below the plot, too", note.includes("footprints: 95\u00a0% of landings lie within"), note);
   await leave(page);
+  await checkLine(browser);
 }
 
 async function checkSideBySide(browser, studies) {

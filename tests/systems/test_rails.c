@@ -304,8 +304,8 @@ static void shoes_equal_dense(void **state)
             printf("  %s, %s, %d states, %.1f surfaces pressed in each:\n", form[f], program[i],
                    states, (double)worst[i].pressed / states);
             // the overall form solves for all unknowns at once: its rounding grows with the number
-            // of states, 2.4e-11 in 1000
-            CHECK_BELOW("tube accelerations", worst[i].tube, asked && i == 2 ? 3e-11 : 1e-11);
+            // of states, 3.7e-11 in 1000 with initial shapes
+            CHECK_BELOW("tube accelerations", worst[i].tube, asked && i == 2 ? 5e-11 : 1e-11);
             CHECK_BELOW("rocket accelerations", worst[i].rocket, 1e-11);
             CHECK_BELOW("lock force", worst[i].lock, 6e-11);
             CHECK_BELOW("force and moment of the air", worst[i].air, 1e-13);

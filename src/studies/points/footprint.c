@@ -151,61 +151,22 @@ ld_status footprint_of_values(const study_values *values, footprint *result)
     return LD_OK;
 }
 
-// ---- of a point
-
-enum { MOST_PLACES = 32 };
-
-// The columns with x and z of each; how many pairs there are.
-static int find_pairs(const study_data *data, footprint_kind kind,
-                      const study_column *column[2 * MOST_PLACES])
-{
-    const int most = kind == FOOTPRINT_LINE ? MOST_PLACES : 1;
-    for (int i = 0; i < most; i++)
-        for (int k = 0; k < 2; k++) {
-            char place[32];
-            const char *nearest, *name = study_pairs[STUDY_LANDING].name[k];
-            snprintf(place, sizeof place, "line.%d.%c", i + 1, k ? 'z' : 'x');
-            column[2 * i + k] =
-                study_data_find(data, kind == FOOTPRINT_LINE ? place : name, &nearest);
-            if (!column[2 * i + k])
-                return i;
-        }
-    return most;
-}
-
-// All pairs of a rocket after each other, in its group.
-static ld_status pool(const study_values *values, int pairs, footprint *result)
-{
-    const size_t count = values->count * (size_t)pairs;
-    double *x = malloc(2 * (count + 1) * sizeof *x), *y = x + count;
-    int64_t *group = malloc((count + 1) * sizeof *group);
-    ld_status status = x && group ? LD_OK : LD_ERR_MEMORY;
-    for (size_t i = 0; i < count && !status; i++) {
-        const size_t rocket = i / (size_t)pairs, pair = i % (size_t)pairs;
-        x[i] = values->value[2 * pair][rocket];
-        y[i] = values->value[2 * pair + 1][rocket];
-        group[i] = values->group[rocket];
-    }
-    if (!status)
-        status = footprint_of(x, y, group, count, result);
-    free(x);
-    free(group);
-    return status;
-}
-
 ld_status footprint_read(const study_data *data, const study_point *point, footprint_kind kind,
                          study_values *values, footprint *result, ld_error *error)
 {
-    const study_column *column[2 * MOST_PLACES];
-    const int pairs = find_pairs(data, kind, column);
+    const study_column *column[2];
+    const char *nearest;
     *result = (footprint){.on_line = true};
-    if (pairs == 0)
-        return LD_OK;
-    ld_status status = study_data_read(data, point, column, 2 * pairs, values, error);
-    if (status || values->count == 0)
-        return status;
-    status = pairs > 1 ? pool(values, pairs, result) : footprint_of_values(values, result);
-    return status ? ld_fail(error, status, "no memory for the footprints") : LD_OK;
+    if (kind == FOOTPRINT_LANDINGS)
+        for (int k = 0; k < 2; k++)
+            if (!(column[k] = study_data_find(data, study_pairs[STUDY_LANDING].name[k], &nearest)))
+                return LD_OK;
+    ld_status status = kind == FOOTPRINT_LINE
+                           ? study_data_read_line(data, point, values, error)
+                           : study_data_read(data, point, column, 2, values, error);
+    if (!status && footprint_of_values(values, result))
+        status = ld_fail(error, LD_ERR_MEMORY, "no memory for the footprints");
+    return status;
 }
 
 void footprint_why_not(footprint_kind kind, const footprint_region *region, char text[128])

@@ -571,6 +571,54 @@ ld_status study_data_read(const study_data *data, const study_point *point,
     return read_up_to(data, &query, values, error);
 }
 
+// ---- lines
+
+enum { MOST_PLACES = 32 };
+
+// The columns with x and z of each place; how many places there are.
+static int find_places(const study_data *data, const study_column *column[2 * MOST_PLACES])
+{
+    for (int i = 0; i < 2 * MOST_PLACES; i++) {
+        char name[32];
+        const char *nearest;
+        snprintf(name, sizeof name, "line.%d.%c", i / 2 + 1, i % 2 ? 'z' : 'x');
+        if (!(column[i] = study_data_find(data, name, &nearest)))
+            return i / 2;
+    }
+    return MOST_PLACES;
+}
+
+// Of pairs of columns the first pair, for all places; from the end, so that none is lost.
+static bool pool_places(study_values *self, size_t places)
+{
+    if (!reserve(self, self->columns, (self->count + 1) * places))
+        return false;
+    for (size_t i = self->count * places; i-- > 0;) {
+        const size_t rocket = i / places, pair = i % places;
+        self->sample[i] = self->sample[rocket];
+        self->group[i] = self->group[rocket];
+        self->rocket[i] = self->rocket[rocket];
+        for (size_t k = 0; k < 2; k++)
+            self->value[k][i] = self->value[2 * pair + k][rocket];
+    }
+    self->count *= places;
+    return true;
+}
+
+ld_status study_data_read_line(const study_data *data, const study_point *point,
+                               study_values *values, ld_error *error)
+{
+    const study_column *column[2 * MOST_PLACES];
+    const int places = find_places(data, column);
+    values->count = 0;
+    if (places == 0)
+        return LD_OK;
+    ld_status status = study_data_read(data, point, column, 2 * places, values, error);
+    if (!status && !pool_places(values, (size_t)places))
+        status = no_memory(error);
+    return status;
+}
+
 // ---- stopping rules
 
 static double half_width(const group_statistics *of, ld_statistic statistic, bool relative)

@@ -90,6 +90,11 @@ ld_status study_data_read(const study_data *data, const study_point *point,
                           ld_error *error);
 void study_values_free(study_values *values);
 
+// Reads the places of the rockets' lines, "line.N.x" and "line.N.z", all as two columns: those of
+// one line after each other. Their count is 0 where the study has no lines.
+ld_status study_data_read_line(const study_data *data, const study_point *point,
+                               study_values *values, ld_error *error);
+
 // Half the width of the 95 % interval of a result's statistic that a stopping rule asks for, the
 // greatest over all points, of the samples numbered up to `last` (0: of all). Of a relative one, as
 // a share of the statistic's magnitude. Infinite while a point states no interval; 0 of a result
