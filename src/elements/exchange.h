@@ -66,6 +66,7 @@ typedef struct launching_input {
     const base_frame *station; // of a flexible base, by support: T as the section that carries it
                                // goes; NULL: the base carries all
     double thrust;             // [N]
+    motor_across across;       // of the motor
     double since;              // [s] the ignition, for the pressure
     int pressure_piece;        // of its table over time, from 1; else 1; 0: not lit
     rocket_mass mass;

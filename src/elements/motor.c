@@ -1,9 +1,10 @@
 #include "elements/motor.h"
 
-#include <math.h>
 #include <stdlib.h>
 
+#include "math/functions.h"
 #include "model/masses.h"
+#include "model/motor_clock.h"
 
 // The shortest rotation of x onto (1, y, z): of columns in the turned axes to B.
 static m3 rotation_onto(double y, double z)
@@ -62,16 +63,52 @@ static double pushing(double thrust)
     return thrust < 0 ? 0 : thrust;
 }
 
-// Corners of the thrust, and those of the masses that lie between them; unscaled.
+// The tables over time besides the thrust, whose rows are corners, too.
+enum { FURTHER_TABLES = 4 };
+typedef struct further_rows {
+    const ld_table *table[FURTHER_TABLES];
+    size_t row[FURTHER_TABLES]; // the next of each
+} further_rows;
+
+static further_rows further_rows_of(const ld_motor *given)
+{
+    const ld_side_force *side = &given->side_force;
+    return (further_rows){{&given->masses, &side->force, &side->noise.deviation, &given->nozzle},
+                          {0}};
+}
+
+// The time of the next row; infinity after the last.
+static double next_row(const further_rows *self)
+{
+    double t = INFINITY;
+    for (int i = 0; i < FURTHER_TABLES; i++) {
+        const ld_table *table = self->table[i];
+        if (self->row[i] < table->rows)
+            t = fmin(t, table->data[self->row[i] * table->columns]);
+    }
+    return t;
+}
+
+static void pass_row(further_rows *self, double t)
+{
+    for (int i = 0; i < FURTHER_TABLES; i++) {
+        const ld_table *table = self->table[i];
+        self->row[i] +=
+            self->row[i] < table->rows && table->data[self->row[i] * table->columns] == t;
+    }
+}
+
+// Corners of the thrust, and the rows of other tables that lie between them; unscaled.
 static void find_corners(motor *self, const ld_motor *given)
 {
-    const ld_table *thrust = &given->thrust, *masses = &given->masses;
-    size_t n = 0, k = 0;
+    const ld_table *thrust = &given->thrust;
+    further_rows others = further_rows_of(given);
+    size_t n = 0;
     for (size_t i = 0; i < thrust->rows; i++) {
         const double *now = &thrust->data[i * thrust->columns];
         double force = pushing(now[1]), before = i > 0 ? pushing(now[-1]) : 0;
-        for (; k < masses->rows && masses->data[k * masses->columns] <= now[0]; k++) {
-            double t = masses->data[k * masses->columns];
+        for (double t = next_row(&others); t <= now[0]; t = next_row(&others)) {
+            pass_row(&others, t);
             if (i == 0 || t == now[0])
                 continue;
             self->t[n] = t;
@@ -83,10 +120,51 @@ static void find_corners(motor *self, const ld_motor *given)
     self->corner_count = n;
 }
 
-ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error)
+// Column `column` of a table over time: linear, constant outside; 0 without rows.
+static double column_at(const ld_table *table, int column, double t)
+{
+    const double *row = table->data + column;
+    size_t width = table->columns, k = 0;
+    if (table->rows == 0)
+        return 0;
+    while (k < table->rows && table->data[k * width] <= t)
+        k++;
+    if (k == 0 || k == table->rows)
+        return row[(k ? k - 1 : 0) * width];
+    const double *a = table->data + (k - 1) * width, *b = a + width;
+    return a[column] + (b[column] - a[column]) * (t - a[0]) / (b[0] - a[0]);
+}
+
+// What is across the axis at a time, unscaled, from ignition.
+static void find_across(const ld_motor *given, double t, double across[ACROSS_COUNT])
+{
+    const ld_side_force *side = &given->side_force;
+    double y = column_at(&side->force, 1, t), z = column_at(&side->force, 2, t);
+    double c = side->scale * cos(side->angle), s = side->scale * sin(side->angle);
+    across[ACROSS_FORCE] = c * y - s * z;
+    across[ACROSS_FORCE + 1] = s * y + c * z;
+    across[ACROSS_DEVIATION] = side->scale * column_at(&side->noise.deviation, 1, t);
+    for (int i = 0; i < 4; i++)
+        across[ACROSS_LEAN + i] = column_at(&given->nozzle, 1 + i, t);
+}
+
+static ld_status build_across(motor *self, const ld_motor *given, int place, ld_error *error)
+{
+    const ld_side_noise *noise = &given->side_force.noise;
+    self->across = malloc((self->corner_count + 1) * ACROSS_COUNT * sizeof(double));
+    if (!self->across)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the side force");
+    for (size_t k = 0; k < self->corner_count; k++)
+        find_across(given, self->t[k], self->across + k * ACROSS_COUNT);
+    return noise->present ? side_noise_build(&self->noise, noise, place, error) : LD_OK;
+}
+
+ld_status motor_build(motor *self, const ld_rocket *rocket, int place, ld_error *error)
 {
     const ld_motor *given = &rocket->motor;
-    size_t most = given->thrust.rows + given->masses.rows;
+    const ld_side_force *side = &given->side_force;
+    size_t most = given->thrust.rows + given->masses.rows + side->force.rows +
+                  side->noise.deviation.rows + given->nozzle.rows;
     bool by_table = given->masses.rows > 0;
     *self = (motor){.propellant = rocket->propellant};
     self->full = mass_of(rocket, &rocket->full);
@@ -100,10 +178,14 @@ ld_status motor_build(motor *self, const ld_rocket *rocket, ld_error *error)
     self->thrust = self->t + most;
     self->impulse = self->t + 2 * most;
     find_corners(self, given);
+    if ((side->present || given->nozzle.rows > 0) && build_across(self, given, place, error)) {
+        motor_free(self);
+        return LD_ERR_MEMORY;
+    }
     for (size_t k = 0; k < self->corner_count; k++) {
         if (by_table)
             self->at[k] = masses_in_table(rocket, self->t[k]);
-        self->t[k] *= given->time_scale;
+        self->t[k] = motor_clock(given, self->t[k]);
         self->thrust[k] *= given->thrust_scale;
         self->impulse[k] =
             k == 0 ? 0
@@ -117,6 +199,8 @@ void motor_free(motor *self)
 {
     free(self->t);
     free(self->at);
+    free(self->across);
+    side_noise_free(&self->noise);
     *self = (motor){0};
 }
 
@@ -155,6 +239,25 @@ int motor_piece(const motor *self, double t)
 double motor_total_impulse(const motor *self)
 {
     return self->corner_count ? self->impulse[self->corner_count - 1] : 0;
+}
+
+motor_across motor_across_at(const motor *self, int piece, double t)
+{
+    motor_across out = {{0}, {0}, {0}};
+    if (!burning(self, piece))
+        return out;
+    const double *a = self->across + (size_t)piece * ACROSS_COUNT, *b = a + ACROSS_COUNT;
+    double share = (t - self->t[piece]) / (self->t[piece + 1] - self->t[piece]), now[ACROSS_COUNT];
+    for (int i = 0; i < ACROSS_COUNT; i++)
+        now[i] = a[i] + share * (b[i] - a[i]);
+    if (a[ACROSS_DEVIATION] != 0 || b[ACROSS_DEVIATION] != 0)
+        side_noise_at(&self->noise, t, out.force);
+    for (int i = 0; i < 2; i++) {
+        out.force[i] = now[ACROSS_FORCE + i] + now[ACROSS_DEVIATION] * out.force[i];
+        out.lean[i] = now[ACROSS_LEAN + i];
+        out.shift[i] = now[ACROSS_SHIFT + i];
+    }
+    return out;
 }
 
 // Between two corners of which the masses are known they go evenly in time.

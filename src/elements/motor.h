@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 
+#include "elements/side_noise.h"
 #include "launchdyn/status.h"
 #include "math/vectors/mat3.h"
 
@@ -20,8 +21,17 @@ typedef struct rocket_mass {
     m3 J_dot;
 } rocket_mass;
 
-// The thrust curve, scaled, cut into pieces between its corners, and those of the masses where they
-// are given; and what burns: with the impulse, or between masses evenly in time.
+// Across the axis, linear between corners: the side force F_y, F_z in B and the deviation of its
+// noise [N]; eps_y, eps_z [-] and y, z [m] by which the nozzle has moved.
+enum { ACROSS_FORCE, ACROSS_DEVIATION = 2, ACROSS_LEAN, ACROSS_SHIFT = 5, ACROSS_COUNT = 7 };
+
+// The same at one instant.
+typedef struct motor_across {
+    double force[2], lean[2], shift[2];
+} motor_across;
+
+// The thrust curve, scaled, cut into pieces between its corners, and those of other tables over
+// time; and what burns: with the impulse, or between masses evenly in time.
 typedef struct motor {
     size_t corner_count;
     double *t;               // [corner_count] s after ignition, owned
@@ -30,9 +40,12 @@ typedef struct motor {
     double propellant;       // [kg]
     rocket_mass full, empty; // with mass error and eccentricity; rates unused
     rocket_mass *at;         // [corner_count] likewise, where a table says it; else NULL. Owned
+    double *across;          // [corner_count][ACROSS_COUNT] where there is any; else NULL. Owned
+    side_noise noise;
 } motor;
 
-ld_status motor_build(motor *self, const struct ld_rocket *rocket, ld_error *error);
+// `place` of the rocket in the firing sequence, from 0, decides its noise.
+ld_status motor_build(motor *self, const struct ld_rocket *rocket, int place, ld_error *error);
 void motor_free(motor *self);
 
 // Pieces: -1 before ignition or the first corner, k between corners k and k + 1, corner_count - 1
@@ -43,6 +56,9 @@ double motor_impulse(const motor *self, int piece, double t);
 int motor_piece(const motor *self, double t);
 // Total impulse [N s].
 double motor_total_impulse(const motor *self);
+
+// What is across the axis while it burns, of a motor that has any.
+motor_across motor_across_at(const motor *self, int piece, double t);
 
 // Mass data at time t after ignition.
 void motor_mass(const motor *self, int piece, double t, rocket_mass *mass);

@@ -105,11 +105,16 @@ LD_INLINE void rocket_forces(const ld_motor *thruster, launching_instant *now)
     v3 w = rocket->w_B, c = inertia->c;
     v3 weight = v3_scale(inertia->m, now->tube.g);
     v3 v_C = v3_add(rocket->v_O1, v3_cross(w, c));
-    // thrust along (1, eps_y, eps_z) at (x_T, e_y, e_z) of B
-    double ey = thruster->misalignment[0], ez = thruster->misalignment[1];
+    // thrust along (1, eps_y, eps_z) at (x_T, e_y, e_z) of B, the side force there
+    const motor_across *across = &now->input->across;
+    double ey = thruster->misalignment[0] + across->lean[0],
+           ez = thruster->misalignment[1] + across->lean[1];
     double along = now->input->thrust / sqrt(1 + ey * ey + ez * ez);
-    v3 thrust = m3_apply(rocket->A_RB, v3_make(along, along * ey, along * ez));
-    v3 at = m3_apply(rocket->A_RB, v3_from(thruster->at));
+    v3 thrust = v3_make(along, along * ey + across->force[0], along * ez + across->force[1]);
+    thrust = m3_apply(rocket->A_RB, thrust);
+    v3 at = v3_make(thruster->at[0], thruster->at[1] + across->shift[0],
+                    thruster->at[2] + across->shift[1]);
+    at = m3_apply(rocket->A_RB, at);
     now->f = v3_add(weight, thrust);
     now->m = v3_add(v3_cross(c, weight), v3_cross(at, thrust));
     out->power[POWER_GRAVITY_ROCKET] = v3_dot(weight, v_C);

@@ -1,6 +1,7 @@
 #include "report/report_study_plan.h"
 
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "model/model.h"
@@ -100,20 +101,23 @@ ld_status study_write_plan(FILE *json, const study_source *source, int index)
     const study_data *data = &source->study[index];
     const ld_origin *origin = &source->origin[index];
     const char *text = origin->scenario ? origin->scenario : data->scenario;
-    ld_model model;
     ld_messages messages;
+    ld_model *model = malloc(sizeof *model);
+    if (!model)
+        return LD_ERR_MEMORY;
     fputs("{\"label\":", json);
     json_write_text(json, data->title && *data->title ? data->title : source->folder[index]);
     ld_status status =
-        scenario_read_text(text, strlen(text), "study", ".", NULL, 0, &model, &messages);
+        scenario_read_text(text, strlen(text), "study", ".", NULL, 0, model, &messages);
     if (!status) {
         fputc(',', json);
-        write_plan(json, &model);
-        write_factors(json, &model);
-        model_clear(&model);
+        write_plan(json, model);
+        write_factors(json, model);
+        model_clear(model);
     } else {
         ld_messages_free(&messages);
     }
+    free(model);
     if (origin->scenario) {
         fputs(",\"origin\":", json);
         report_write_origin(json, origin, REPORT_ORIGIN_BYTES / (size_t)source->study_count);

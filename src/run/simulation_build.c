@@ -35,7 +35,7 @@ static ld_status create_launch(ld_simulation *self, launcher_kept *kept, ld_erro
     ld_status status = launcher_build(&self->launcher, model, kept, error);
     int count = salvo_is_given(model) ? model_firing_count(model) : 1;
     for (int i = 0; i < count && !status; i++) {
-        status = motor_build(&self->motor_of[i], salvo_rocket(model, i), error);
+        status = motor_build(&self->motor_of[i], salvo_rocket(model, i), i, error);
         self->motor_count += !status;
     }
     if (!status)

@@ -52,6 +52,11 @@ static const char *const options[][MOST_SETTINGS] = {
      "m, 1 m/s, 2 m/s], [2 km, 9 m/s, 4 m/s]], turbulence: {wind_at_6m: 5 m/s, harmonics: 20}}}"},
     {"rocket.motor.jet_damping=yes", "rocket.motor.exit_radius=50 mm"},
     {"rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
+    {"rocket.motor.side_force={force: [[0.2 s, 10 N, 5 N], [1 s, -8 N, 2 N], [2 s, 0 N, 0 N]], "
+     "fluctuation: {deviation: [[0 s, 20 N], [1.5 s, 0 N]], corner: 20 Hz, harmonics: 10}}",
+     "rocket.motor.delay=0.05 s", "rocket.motor.rise_scale=2"},
+    {"rocket.motor.nozzle=[[0 s, 0 rad, 0 rad, 0 m, 1 mm], [1 s, 1 mrad, -1 mrad, 1 mm, 0 m]]",
+     "rocket.motor.jet_damping=yes", "rocket.motor.misalignment=0.4 -0.3 mrad"},
     {"environment.atmosphere={density: 1.2 kg/m3, speed_of_sound: 340 m/s}"},
     {"environment.atmosphere=none"},
     {"environment.atmosphere={profile: [[0 m, 100 kPa, 290 K], [300 m, 96.5 kPa, 287 K], [2 km, "

@@ -6,6 +6,7 @@
 
 #include "math/vectors/mat3.h"
 #include "model/model.h"
+#include "support/dense_motor.h"
 
 // Numbers of the state: O1 and its velocity in inertial axes, quaternion of B, rate in B.
 enum { R = 0, V = 3, Q = 6, W = 10, STATES = 13, POINTS = 64 };
@@ -192,7 +193,7 @@ static body body_at(const dense *d, double t)
     double since = t - d->model->flight.ignition, total = 0, burnt = 0;
     body b = {.power = false};
     for (size_t i = 0; i + 1 < motor->thrust.rows; i++, row += 2) {
-        double t0 = motor->time_scale * row[0], t1 = motor->time_scale * row[2];
+        double t0 = dense_motor_clock(motor, row[0]), t1 = dense_motor_clock(motor, row[2]);
         double T0 = motor->thrust_scale * row[1], T1 = motor->thrust_scale * row[3];
         total += (t1 - t0) * (T0 + T1) / 2;
         if (since >= t1) {
@@ -300,10 +301,14 @@ static void derivative(const dense *d, double t, const double *y, double *y_dot)
     air_forces(d, &b, rotate(unit, v_air, -1), w, rho, sound, &f_a, &m_a);
     // thrust
     const ld_motor *motor = &d->model->rocket.motor;
-    v3 e_T = v3_make(1, motor->misalignment[0], motor->misalignment[1]);
+    double across[6], since = t - d->model->flight.ignition;
+    dense_motor_across(motor, since, across);
+    v3 e_T = v3_make(1, across[2], across[3]);
     e_T = v3_scale(1 / v3_norm(e_T), e_T);
-    v3 f_T = v3_scale(b.T, e_T);
-    v3 M = v3_add(v3_cross(v3_sub(v3_from(motor->at), b.c), f_T), m_a);
+    v3 f_T = v3_scale(b.T, e_T), point = v3_make(motor->at[0], across[4], across[5]);
+    if (b.power && since >= motor->delay)
+        f_T = v3_add(f_T, v3_make(0, across[0], across[1]));
+    v3 M = v3_add(v3_cross(v3_sub(point, b.c), f_T), m_a);
     // Euler, then the acceleration of O1
     v3 w_dot = solve(&b.J, v3_sub(M, v3_cross(w, through(&b.J, w))));
     v3 F = v3_add(v3_scale(b.m, rotate(unit, gravity(d, r_C), -1)), v3_add(f_T, f_a));
@@ -357,13 +362,9 @@ static void step(const dense *d, double t, double H, double *y)
 // The next corner of thrust or gust after t.
 static double next_corner(const ld_model *model, double t)
 {
-    const ld_table *thrust = &model->rocket.motor.thrust;
     const ld_wind *w = &model->environment.wind;
-    double next = INFINITY;
-    for (size_t i = 0; i < thrust->rows; i++) {
-        double at = model->flight.ignition + model->rocket.motor.time_scale * thrust->data[2 * i];
-        next = at > t + 1e-12 ? fmin(next, at) : next;
-    }
+    double since = t + 1e-12 - model->flight.ignition;
+    double next = model->flight.ignition + dense_motor_corner(&model->rocket.motor, since);
     for (int i = 0; w->present && i < w->gust_count; i++) {
         const ld_gust *g = &w->gust[i];
         double fall = isnan(g->fall) ? g->rise : g->fall, at = g->start;

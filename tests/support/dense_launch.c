@@ -1280,17 +1280,17 @@ static void add_gas(equations *eq, const jet_scene *scene, const dense_condition
     output->gas_force = p * area;
 }
 
-static void add_thrust(equations *eq, const jet_scene *scene, double thrust)
+static void add_thrust(equations *eq, const jet_scene *scene, double thrust, const double across[6])
 {
-    const ld_motor *motor = &scene->dense->model->rocket.motor;
-    double e_y = motor->misalignment[0], e_z = motor->misalignment[1];
+    const double e_y = across[2], e_z = across[3];
     double direction[3] = {1, e_y, e_z}, norm = sqrt(1 + e_y * e_y + e_z * e_z), f[3];
     for (int i = 0; i < 3; i++) {
-        f[i] = 0;
+        f[i] = across[0] * scene->B.A.c[i][1].v + across[1] * scene->B.A.c[i][2].v;
         for (int j = 0; j < 3; j++)
             f[i] += thrust * scene->B.A.c[i][j].v * direction[j] / norm;
     }
-    jet3 at = jet3_constant(motor->at), point = point_in(&scene->B, &at);
+    double place[3] = {scene->dense->model->rocket.motor.at[0], across[4], across[5]};
+    jet3 at = jet3_constant(place), point = point_in(&scene->B, &at);
     add_force(eq->h, &point, f);
     add_force(eq->other, &point, f);
 }
@@ -1682,7 +1682,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
                                                         state->s + rocket->adaptor[i].at, output);
     for (int i = 0; i < rocket->adaptor_count; i++)
         add_drag(&eq, &moving, &still, conditions, i, state->s);
-    add_thrust(&eq, &moving, conditions->thrust);
+    add_thrust(&eq, &moving, conditions->thrust, conditions->across);
     // constraints
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
     jet s = foot_of(&moving, &still, &moving.B.r, state->s);

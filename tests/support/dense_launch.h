@@ -69,7 +69,8 @@ typedef struct dense_conditions {
     double center[3];   // [m] in B, eccentricity included
     double inertia[3];  // [kg m2] about the mass centre, in B
     double products[3]; // [kg m2] J_xy, J_xz, J_yz of the matrix
-    double thrust;      // [N]; point and direction are the model's
+    double thrust;      // [N]
+    double across[6];   // [N] side force y, z, [-] direction (1, y, z) and [m] y, z of the nozzle
     double pressure;    // [Pa] net, behind the rocket, where the travel does not say it
     bool pressed;       // the pressure is on
     int slot_piece; // stretch of the slot's table: 0 as s says, 1 before its first point, 2 between

@@ -2,6 +2,7 @@
 
 #include "math/matrices/lapack.h"
 #include "model/model.h"
+#include "support/dense_motor.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,10 +154,15 @@ void dense_rocket_at(const ld_model *model, double since, double middle, dense_c
     const ld_rocket *rocket = &model->rocket;
     const ld_motor *motor = &rocket->motor;
     const ld_mass_data *full = &rocket->full, *empty = &rocket->empty;
-    double burnt = burnt_at(motor, since / motor->time_scale);
-    on->thrust = thrust_at(motor, since / motor->time_scale, middle / motor->time_scale);
-    on->power = motor->thrust.rows > 0 &&
-                middle < motor->time_scale * motor->thrust.data[2 * (motor->thrust.rows - 1)];
+    double tau = (since - motor->delay) / motor->time_scale,
+           between = (middle - motor->delay) / motor->time_scale;
+    double burnt = burnt_at(motor, tau);
+    on->thrust = thrust_at(motor, tau, between);
+    on->power =
+        motor->thrust.rows > 0 && between < motor->thrust.data[2 * (motor->thrust.rows - 1)];
+    dense_motor_across(motor, since, on->across);
+    if (!on->power || between < 0)
+        on->across[0] = on->across[1] = 0;
     on->mass = full->mass + rocket->mass_error - burnt * rocket->propellant;
     for (int i = 0; i < 3; i++) {
         on->center[i] = full->center[i] + burnt * (empty->center[i] - full->center[i]);
@@ -549,7 +555,7 @@ static void co_move(dense_state *state, const dense_base *base)
 static void hold_base(const launch_run *launch, double t, const double *x, dense_conditions *on)
 {
     conditions_at(launch, t, t, x, on);
-    on->thrust = 0;
+    on->thrust = on->across[0] = on->across[1] = 0;
     on->pressed = false;
     on->frictionless = true;
     memset(on->base.v, 0, sizeof on->base.v);
@@ -877,12 +883,7 @@ static void summarise(launch_run *launch, double t, const double *x,
 static double next_corner(const launch_run *launch, double t)
 {
     const ld_motor *motor = &launch->model->rocket.motor;
-    double next = INFINITY;
-    for (size_t i = 0; i < motor->thrust.rows; i++) {
-        double corner = launch->ignition + motor->time_scale * motor->thrust.data[2 * i];
-        if (corner > t + 1e-12)
-            next = fmin(next, corner);
-    }
+    double next = launch->ignition + dense_motor_corner(motor, t + 1e-12 - launch->ignition);
     const ld_table *pressure = &launch->model->tubes.pressure.over_time;
     for (size_t i = 0; i < pressure->rows; i++)
         if (launch->ignition + pressure->data[2 * i] > t + 1e-12)

@@ -79,6 +79,12 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
     c->input.pressure_piece = 1;
     if (pressure->form == LD_PRESSURE_OVER_TIME && pressure->over_time.rows > 1)
         c->input.since = 0.5 * (1 + draw(seed)) * pressure->over_time.data[2];
+    uint64_t other = *seed + 1;
+    for (int i = 0; i < 2; i++) {
+        c->input.across.force[i] = 3000 * draw(&other);
+        c->input.across.lean[i] = 0.1 * draw(&other);
+        c->input.across.shift[i] = 0.05 * draw(&other);
+    }
     c->phase.rocket = true;
     c->phase.locked = locked;
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
@@ -122,6 +128,12 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->products[1] = mass->J.a[0][2];
     conditions->products[2] = mass->J.a[1][2];
     conditions->thrust = c->input.thrust;
+    for (int i = 0; i < 2; i++) {
+        const ld_motor *given = &system->rocket->motor;
+        conditions->across[i] = c->input.across.force[i];
+        conditions->across[2 + i] = given->misalignment[i] + c->input.across.lean[i];
+        conditions->across[4 + i] = given->at[1 + i] + c->input.across.shift[i];
+    }
     conditions->pressed = c->input.pressure_piece > 0;
     conditions->pressure =
         dense_pressure_at(&system->model->tubes.pressure, c->input.since, c->input.since);

@@ -93,6 +93,7 @@ static void fill_rocket(ld_rocket *rocket)
     rocket->lock = (ld_lock){.present = true, .release_force = 5e3};
     rocket->motor.thrust = reference_table(4, 2, (double[]){0, 0, 0.01, 15e3, 2.5, 15e3, 2.55, 0});
     rocket->motor.thrust_scale = 1;
+    rocket->motor.rise_scale = 1;
     rocket->motor.time_scale = 1;
 }
 

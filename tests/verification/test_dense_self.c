@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "support/dense_launch.h"
+#include "support/dense_motor.h"
 #include "support/reference_model.h"
 
 // Numbers in [-1, 1], the same on every machine.
@@ -132,6 +133,7 @@ static void random_input(const bench *b, dense_launch_input *in)
     on->inertia[2] = 22;
     fill_random(on->products, 3, 0.05);
     on->thrust = 15e3;
+    dense_motor_across(&b->model.rocket.motor, 0, on->across);
 }
 
 // Surfaces of every shoe, flat and round, most of them pressed in, beside an offset guide line.

@@ -130,6 +130,13 @@ static void test_odd_flights(void **state)
             "environment.temperature_offset=12 K", "environment.ground=-20 m",
             "flight.ignition=0.3 s", "flight.position=1 2 3 m",
             "flight.attitude=", "flight.quaternion=0.9 0.3 0.1 0.2", "flight.rate=3 0.1 0.2 rad/s");
+    COMPARE("side force, nozzle that moves, rise", 2e-7, "flight.ignition=0.05 s",
+            "rocket.motor.rise_scale=1.4", "rocket.motor.delay=30 ms",
+            "rocket.motor.misalignment=0.3 0.5 mrad", "rocket.motor.at=0 0.2 0.1 mm",
+            "rocket.motor.side_force={force: [[0 s, 20 N, 5 N], [0.1 s, -8 N, 30 N], [0.3 s, 2 N, "
+            "1 N]], scale: 0.7, angle: 50 deg}",
+            "rocket.motor.nozzle=[[0.05 s, 1 mrad, 0 rad, 0 m, 0.1 mm], [0.2 s, 0 rad, -2 mrad, 1 "
+            "mm, 0 m], [0.7 s, 0 rad, 0 rad, 0 m, 0 m]]");
     COMPARE(
         "plain body", 2e-7, "flight.ignition=-10 s",
         "rocket.aerodynamics={model: body, area: 0.02 m2, drag: 0.8, damping: -1 -2 -3, lengths: "

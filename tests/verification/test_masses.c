@@ -73,11 +73,13 @@ static void test_between(void **state)
     const double thrust[] = {0, 100, 2, 100, 2, 300, 4, 0};
     ld_rocket rocket = {.mass_error = 0.5, .eccentricity = {1e-3, 0}};
     rocket.full = (ld_mass_data){56, {1.5, 0, 0}, {1.1, 30, 30}};
-    rocket.motor =
-        (ld_motor){.thrust = reference_table(4, 2, thrust), .thrust_scale = 2, .time_scale = 3};
+    rocket.motor = (ld_motor){.thrust = reference_table(4, 2, thrust),
+                              .thrust_scale = 2,
+                              .time_scale = 3,
+                              .rise_scale = 1};
     fill_masses(&rocket.motor.masses, 0);
     motor burns;
-    assert_int_equal(motor_build(&burns, &rocket, NULL), LD_OK);
+    assert_int_equal(motor_build(&burns, &rocket, 0, NULL), LD_OK);
     // corners at 0, 1.5, 2, 2, 3, 4 times 3
     assert_int_equal(burns.corner_count, 6);
     CHECK_NEAR("thrust at a corner of the masses [N]", motor_thrust(&burns, 4, 9), 300, 1e-12);

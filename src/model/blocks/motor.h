@@ -9,6 +9,29 @@
 /// Whether free flight counts what the gas that flows takes along and the rates of m, c and J.
 typedef enum ld_jet_damping { LD_JET_DAMPING_NO, LD_JET_DAMPING_YES } ld_jet_damping;
 
+/// The shape of the spectrum of a side force's noise.
+typedef enum ld_spectrum_form { LD_SPECTRUM_CORNER, LD_SPECTRUM_TABLE } ld_spectrum_form;
+
+/// The random part of the side force.
+typedef struct ld_side_noise {
+    bool present;
+    ld_table deviation; ///< t [s] from ignition, [N] of each component; linear, constant outside
+    ld_spectrum_form form;
+    double corner;     ///< [Hz]
+    ld_table spectrum; ///< [Hz], [-] density over the frequency, but for a factor; linear
+    int seed;
+    int harmonics; ///< cells of the spectrum
+} ld_side_noise;
+
+/// Force across the axis at the nozzle while the motor burns.
+typedef struct ld_side_force {
+    bool present;
+    ld_table force; ///< t [s] from ignition, F_y, F_z [N] in B; linear, constant outside
+    double scale;   ///< [-] of both parts
+    double angle;   ///< [rad] by which `force` is turned about x of B
+    ld_side_noise noise;
+} ld_side_force;
+
 typedef struct ld_motor {
     bool absent;            ///< no motor (flight alone, or a launch by pressure)
     ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
@@ -16,12 +39,17 @@ typedef struct ld_motor {
     double misalignment[2]; ///< [-] eps_y, eps_z
     double thrust_scale;    ///< [-]
     double time_scale;      ///< [-]
+    double rise_scale;      ///< [-] of the times up to 90 % of the greatest thrust
+    double delay;           ///< [s] from ignition to the tables' beginning
     ld_jet_damping jet_damping;
     double exit_radius; ///< [m] of the nozzle, for jet damping
     ld_table masses;    ///< t [s], m [kg], x [m], J_x, J_t [kg m2] of the part of the rocket that
                         ///< loses mass; linear between, constant before and after. Empty: what
                         ///< burns goes with the impulse
     double masses_at;   ///< [m] x of B from which the table counts its centres
+    ld_side_force side_force;
+    ld_table nozzle; ///< t [s], eps_y, eps_z [-], y, z [m] besides `misalignment` and `at`; linear,
+                     ///< constant outside
 } ld_motor;
 
 #endif

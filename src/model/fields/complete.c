@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "model/masses.h"
+#include "model/motor_clock.h"
 
 void model_init(ld_model *model)
 {
@@ -116,7 +117,7 @@ static double last_time(const ld_table *table)
 static double time_to_leave(const ld_model *model)
 {
     const ld_motor *motor = &model->rocket.motor;
-    double end = fmax(last_time(&motor->thrust) * motor->time_scale,
+    double end = fmax(motor_clock(motor, last_time(&motor->thrust)),
                       last_time(&model->tubes.pressure.over_time));
     return end > 0 ? end + 1 : 10;
 }

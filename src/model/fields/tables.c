@@ -1037,6 +1037,63 @@ static const field_row masses_columns[] = {
     {"inertia_y", .unit = "kg.m2", NOT_NEGATIVE},
 };
 static const table_format masses_table = {TABLE_CSV | TABLE_ROCKSIM, 5, masses_columns, NULL};
+static const field_row side_force_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},
+    {"y", .unit = "N", FROM_TO(-1e9, 1e9)},
+    {"z", .unit = "N", FROM_TO(-1e9, 1e9)},
+};
+static const table_format side_force_table = {TABLE_CSV, 3, side_force_columns, NULL};
+static const field_row nozzle_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)}, {"eps_y", .unit = "rad", FROM_TO(-1, 1)},
+    {"eps_z", .unit = "rad", FROM_TO(-1, 1)}, {"y", .unit = "m", FROM_TO(-100, 100)},
+    {"z", .unit = "m", FROM_TO(-100, 100)},
+};
+static const table_format nozzle_table = {TABLE_CSV, 5, nozzle_columns, NULL};
+static const field_row deviation_columns[] = {
+    {"time", .unit = "s", FROM_TO(0, 10000)},
+    {"deviation", .unit = "N", FROM_TO(0, 1e9)},
+};
+static const table_format deviation_table = {TABLE_CONSTANT, 2, deviation_columns, NULL};
+static const field_row spectrum_columns[] = {
+    {"frequency", .unit = "Hz", FROM_TO(0, 1e5)},
+    {"density", .unit = "", NOT_NEGATIVE},
+};
+static const table_format spectrum_table = {TABLE_CSV, 2, spectrum_columns, NULL};
+static const field_word noise_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word spectrum_forms[] = {
+    {"a corner frequency", LD_SPECTRUM_CORNER}, {"a spectrum", LD_SPECTRUM_TABLE}, {NULL, 0}};
+static const field_row side_noise_fields[] = {
+    {"deviation", TABLE(ld_side_noise, deviation, deviation_table), .required = true,
+     .doc = "standard deviation of F_y and of F_z, constant or over time from ignition (linear, "
+            "constant outside)"},
+    {"corner", NUMBER(ld_side_noise, corner, "Hz"), ABOVE_TO(0, 1e4), REQUIRED,
+     .forms = FORM(LD_SPECTRUM_CORNER),
+     .doc = "f_c of the power spectrum 1/(1 + (f/f_c)^2), cut off at 10 f_c"},
+    {"spectrum", TABLE(ld_side_noise, spectrum, spectrum_table), .required = true,
+     .forms = FORM(LD_SPECTRUM_TABLE),
+     .doc = "power density over the frequency, linear, 0 outside; its shape counts"},
+    {"seed", INTEGER(ld_side_noise, seed, 0, 999999999), DEFAULT(1),
+     .doc = "of phases and frequencies"},
+    {"harmonics", INTEGER(ld_side_noise, harmonics, 1, 1000), DEFAULT(100),
+     .doc = "cells of the spectrum"},
+    {0}};
+static const field_block side_noise_block = {.fields = side_noise_fields,
+                                             .form = spectrum_forms,
+                                             .form_offset = offsetof(ld_side_noise, form),
+                                             .form_from_keys = true};
+static const field_row side_force_fields[] = {
+    {"force", TABLE(ld_side_force, force, side_force_table), .initial_doc = "0",
+     .doc = "F_y, F_z in B over time from ignition, linear, constant outside"},
+    {"scale", NUMBER(ld_side_force, scale, ""), FROM_TO(-1000, 1000), DEFAULT(1),
+     .doc = "factor on `force` and `fluctuation.deviation`"},
+    {"angle", NUMBER(ld_side_force, angle, "rad"), FROM_TO(-2 * PI, 2 * PI), DEFAULT(0),
+     .doc = "turns `force` about x of B, from y towards z"},
+    {"fluctuation", BLOCK(ld_side_force, noise, side_noise_block), .initial_doc = "none",
+     SWITCH(ld_side_force, noise.present, noise_words), .other_is_bool = true,
+     .doc = "random part, F_y and F_z independent"},
+    {0}};
+static const field_block side_force_block = {.fields = side_force_fields};
+static const field_word side_force_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_word jet_damping_words[] = {
     {"no", LD_JET_DAMPING_NO}, {"yes", LD_JET_DAMPING_YES}, {NULL, 0}};
 static const field_row motor_fields[] = {
@@ -1050,7 +1107,12 @@ static const field_row motor_fields[] = {
     {"thrust_scale", NUMBER(ld_motor, thrust_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
      .doc = "factor on the thrust"},
     {"time_scale", NUMBER(ld_motor, time_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
-     .doc = "factor on the times of the table"},
+     .doc = "factor on the times of the tables"},
+    {"rise_scale", NUMBER(ld_motor, rise_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the times up to the first row of `thrust` at 90 % of the greatest; what "
+            "follows moves along"},
+    {"delay", NUMBER(ld_motor, delay, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "from ignition to the beginning of the motor's tables"},
     {"jet_damping", CHOICE(ld_motor, jet_damping, jet_damping_words), DEFAULT(LD_JET_DAMPING_NO),
      .doc = "in free flight: jet damping and rates of mass, centre and inertia"},
     {"exit_radius", NUMBER(ld_motor, exit_radius, "m"), FROM_TO(0, 100), DEFAULT(0),
@@ -1062,6 +1124,12 @@ static const field_row motor_fields[] = {
     {"masses_at", NUMBER(ld_motor, masses_at, "m"), FROM_TO(-100, 100), DEFAULT(0),
      .doc =
          "x of B from which the centres of `masses` count; for an .rse file the motor's front end"},
+    {"side_force", BLOCK(ld_motor, side_force, side_force_block), .initial_doc = "none",
+     SWITCH(ld_motor, side_force.present, side_force_words), .other_is_bool = true,
+     .doc = "across the axis at `at`, while the motor burns"},
+    {"nozzle", TABLE(ld_motor, nozzle, nozzle_table), .initial_doc = "none",
+     .doc = "moves over time from ignition, added to `misalignment` and `at`; linear, constant "
+            "outside"},
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
 

@@ -526,6 +526,38 @@ static void thrust_rules(const rule_set *rules)
                       impulse);
 }
 
+static void side_noise_rules(const rule_set *rules, const ld_side_noise *noise)
+{
+    const char *path = "rocket.motor.side_force.fluctuation.spectrum";
+    const ld_table *spectrum = &noise->spectrum;
+    double power = 0;
+    rising_rule(rules, "rocket.motor.side_force.fluctuation.deviation.#", &noise->deviation, "s",
+                false);
+    if (noise->form != LD_SPECTRUM_TABLE)
+        return;
+    rising_rule(rules, "rocket.motor.side_force.fluctuation.spectrum.#", spectrum, "Hz", false);
+    for (size_t i = 0; i < spectrum->rows; i++)
+        power = fmax(power, spectrum->data[2 * i + 1]);
+    if (spectrum->rows < 2)
+        report_broken(rules, path, 0, "needs at least two rows");
+    else if (!(power > 0))
+        report_broken(rules, path, 0, "has no power");
+}
+
+static void side_force_rules(const rule_set *rules)
+{
+    const ld_motor *motor = &rules->model->rocket.motor;
+    const ld_side_force *side = &motor->side_force;
+    rising_rule(rules, "rocket.motor.nozzle.#", &motor->nozzle, "s", false);
+    if (!side->present)
+        return;
+    if (side->force.rows == 0 && !side->noise.present)
+        report_broken(rules, "rocket.motor.side_force", 0, "needs force, fluctuation or both");
+    rising_rule(rules, "rocket.motor.side_force.force.#", &side->force, "s", false);
+    if (side->noise.present)
+        side_noise_rules(rules, &side->noise);
+}
+
 static void initial_shape_rules(const rule_set *rules)
 {
     const ld_tubes *tubes = &rules->model->tubes;
@@ -817,6 +849,7 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
         start_rules(&all);
     mass_rules(&all);
     thrust_rules(&all);
+    side_force_rules(&all);
     environment_rules(&all);
     aerodynamics_rules(&all);
     brakes_rules(&all);

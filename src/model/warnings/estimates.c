@@ -6,6 +6,7 @@
 #include "model/fields/field.h"
 #include "model/guide.h"
 #include "model/model.h"
+#include "model/motor_clock.h"
 #include "model/parts.h"
 
 static const double PI = 3.14159265358979323846;
@@ -107,9 +108,10 @@ double estimate_impulse(const plausible_entry *at)
     double impulse = 0;
     for (size_t i = 1; i < motor->thrust.rows; i++) {
         const double *a = &motor->thrust.data[2 * (i - 1)], *b = &motor->thrust.data[2 * i];
-        impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
+        double time = motor_clock(motor, b[0]) - motor_clock(motor, a[0]);
+        impulse += time * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
     }
-    return impulse * motor->thrust_scale * motor->time_scale;
+    return impulse * motor->thrust_scale;
 }
 
 // End of the thrust [s], with its scale; 0 without.
@@ -117,7 +119,7 @@ static double burn_time(const plausible_entry *at)
 {
     const ld_motor *motor = &at->model->rocket.motor;
     const ld_table *thrust = &motor->thrust;
-    return thrust->rows > 0 ? thrust->data[2 * (thrust->rows - 1)] * motor->time_scale : 0;
+    return thrust->rows > 0 ? motor_clock(motor, thrust->data[2 * (thrust->rows - 1)]) : 0;
 }
 
 static double no_motor(const plausible_entry *at)

@@ -109,7 +109,7 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
         status = turbulence_build(&self->turbulence, &environment->wind.turbulence, rocket, error);
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
     if (!status)
-        status = motor_build(&self->motor, flying, error);
+        status = motor_build(&self->motor, flying, rocket, error);
     if (status) {
         flight_free(self);
         return status;
@@ -117,7 +117,7 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
     self->symmetric = is_symmetric_mass(&self->motor.full) &&
                       is_symmetric_mass(&self->motor.empty) && direction.y == 0 &&
                       direction.z == 0 && self->thrust_point.y == 0 && self->thrust_point.z == 0 &&
-                      self->aerodynamics.axisymmetric;
+                      !self->motor.across && self->aerodynamics.axisymmetric;
     self->feels_shear = self->aerodynamics.present &&
                         self->aerodynamics.model == LD_AERODYNAMICS_SURFACES &&
                         self->wind.present && self->wind.has_profile;
@@ -281,8 +281,9 @@ bool flight_is_like(const flight_system *self, const flight_system *other)
            self->aerodynamics.model == other->aerodynamics.model &&
            self->aerodynamics.surfaces.slopes == other->aerodynamics.surfaces.slopes &&
            self->aerodynamics.surfaces.acrosses == other->aerodynamics.surfaces.acrosses &&
-           !self->motor.at == !other->motor.at && self->feels_shear == other->feels_shear &&
-           self->jet_damping == other->jet_damping && self->symmetric == other->symmetric;
+           !self->motor.at == !other->motor.at && !self->motor.across == !other->motor.across &&
+           self->feels_shear == other->feels_shear && self->jet_damping == other->jet_damping &&
+           self->symmetric == other->symmetric;
 }
 
 // ---- in and out

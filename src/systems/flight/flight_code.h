@@ -50,12 +50,40 @@ LD_INLINE burning burning_at(const flight_lanes *lanes, real t, bool symmetric)
     return out;
 }
 
+// The motor's force, in B, and where it acts.
+typedef struct motor_push {
+    real3 force, at;
+} motor_push;
+
+LD_INLINE motor_push push_of(const flight_lanes *lanes, real t, real thrust)
+{
+    motor_push out = {real3_scale(thrust, THREE_OF(thrust_direction)), THREE_OF(thrust_point)};
+    if (!lanes->system[0]->motor.across)
+        return out;
+    for (int i = 0; i < LANES; i++) {
+        const flight_phase *phase = lanes->phase[i];
+        const ld_motor *given = &lanes->system[i]->rocket->motor;
+        motor_across across = motor_across_at(&lanes->system[i]->motor, phase->piece,
+                                              REAL_LANE(t, i) - phase->t_ignition);
+        double y = given->misalignment[0] + across.lean[0],
+               z = given->misalignment[1] + across.lean[1];
+        double along = REAL_LANE(thrust, i) / sqrt(1 + y * y + z * z);
+        REAL_LANE(out.force.x, i) = along;
+        REAL_LANE(out.force.y, i) = along * y + across.force[0];
+        REAL_LANE(out.force.z, i) = along * z + across.force[1];
+        REAL_LANE(out.at.y, i) = given->at[1] + across.shift[0];
+        REAL_LANE(out.at.z, i) = given->at[2] + across.shift[1];
+    }
+    return out;
+}
+
 // Force and moment about the mass centre, in B, of the gas that flows and of the rates of mass,
 // centre and inertia (systems/flight/flight.h).
-LD_INLINE real_wrench jet_damping(const flight_lanes *lanes, const burning *mass, real3 w)
+LD_INLINE real_wrench jet_damping(const flight_lanes *lanes, const burning *mass, real3 nozzle,
+                                  real3 w)
 {
     real gone = OF(burn.rate) * mass->flow, leaving = gone * OF(propellant);
-    real3 arm = real3_sub(THREE_OF(thrust_point), mass->c);
+    real3 arm = real3_sub(nozzle, mass->c);
     real3 inside = real3_axpy(real3_scale(mass->mass, mass->c_dot), leaving, arm);
     real3 turned = real3_cross(arm, real3_cross(w, arm));
     real exit = OF(exit_square);
@@ -347,10 +375,11 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     real3 w = roll(c, -s, w_N);
     // mass and thrust
     burning mass = burning_at(lanes, t, symmetric);
-    real3 force = real3_scale(mass.thrust, THREE_OF(thrust_direction));
-    real3 moment = real3_cross(real3_sub(THREE_OF(thrust_point), mass.c), force);
+    motor_push push = push_of(lanes, t, mass.thrust);
+    real3 force = push.force;
+    real3 moment = real3_cross(real3_sub(push.at, mass.c), force);
     if (first->jet_damping) {
-        real_wrench jet = jet_damping(lanes, &mass, w);
+        real_wrench jet = jet_damping(lanes, &mass, push.at, w);
         force = real3_add(force, jet.f);
         moment = real3_add(moment, jet.m);
     }

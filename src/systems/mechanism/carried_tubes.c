@@ -99,7 +99,7 @@ ld_status carried_tubes(carried_mass *all, const ld_model *model, const mechanis
             continue;
         const ld_rocket *rocket = rocket_in(model, number);
         motor thruster;
-        ld_status status = motor_build(&thruster, rocket, error);
+        ld_status status = motor_build(&thruster, rocket, 0, error);
         if (status)
             return status;
         v3 c = v3_add(v3_make(rocket->start_at, 0, 0), thruster.full.c);
