@@ -72,6 +72,7 @@ typedef struct launching_input {
     rocket_mass mass;
     moving_air air;                   // about the rocket; read where it feels it
     air_about about;                  // the guide
+    double guide_jet;                 // [N] of the rocket that has left, on the guide's front end
     const aerodynamics *aerodynamics; // of the whole rocket, on an open guide; NULL: none
     bool power;                       // the thrust table has not ended: for those
     const launching_load *load;       // where it is linearised; NULL: none
@@ -127,9 +128,13 @@ typedef struct shoe_report {
 // That of the wind on the guide itself.
 #define GUIDE_WIND_WORKS(X) X(POWER_GUIDE_WIND, "guide_wind", "work of the wind on the guide")
 
+// That of the jet on the guide's front end.
+#define GUIDE_JET_WORKS(X) X(POWER_GUIDE_JET, "guide_jet", "work of the jet on the guide")
+
 enum launching_power {
     LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) PRESSURE_WORKS(WORK_PLACE)
-        RECOIL_WORKS(WORK_PLACE) LINE_WORKS(WORK_PLACE) GUIDE_WIND_WORKS(WORK_PLACE) POWER_COUNT,
+        RECOIL_WORKS(WORK_PLACE) LINE_WORKS(WORK_PLACE) GUIDE_WIND_WORKS(WORK_PLACE)
+            GUIDE_JET_WORKS(WORK_PLACE) POWER_COUNT,
     POWER_ALWAYS = POWER_AIR, // those that are always there come first
 };
 
@@ -155,6 +160,7 @@ typedef struct launching_output {
     double line_paid;         // [m] its length that is out
     double emerged;           // [m] length of the rocket that is out of the tube, in the air
     v3 crossflow;             // [N] force of the air on it, in R
+    double guide_jet;         // [N] of the jet on the guide's front end
     v3 guide_wind;            // [N] of the wind on the guide, where it feels it, in R
     double air_mach;          // of the mass centre through the air, where all of it feels that
     v3 air_force, air_moment; // [N], [N m] of the air on it, about the mass centre, in R

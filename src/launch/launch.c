@@ -153,7 +153,7 @@ static ld_status after_step(ld_run *run, integrator_outcome outcome)
         status = launch_write_row(run, t, y);
     bool inside = self->phase.rocket;
     bool changed = outcome == INTEGRATOR_EVENT && launch_switch_phase(run, t, y);
-    if (!status && inside && !self->phase.rocket && model_has_jet(self->model))
+    if (!status && inside && !self->phase.rocket && model_has_jets(self->model))
         status = launch_begin_jet(run, t, y);
     if (outcome == INTEGRATOR_STOPPED) {
         changed = launch_pass_stop(run, t);

@@ -112,7 +112,7 @@ static void archive_jets(archive *bytes, ld_run *run)
 {
     jets *left = &run->launch.jets;
     int count = run->launch.current + !run->launch.phase.rocket;
-    if (!model_has_jet(run->launch.model))
+    if (!model_has_jets(run->launch.model))
         return;
     if (bytes->loading)
         jets_free(left);

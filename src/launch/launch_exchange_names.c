@@ -68,7 +68,8 @@ static exchange_quantity name_work(const launcher_system *launcher, int i)
     static const named_work work[POWER_COUNT + VEHICLE_POWERS] = {
         LAUNCHING_WORKS(WORK_NAME) OPEN_AIR_WORKS(WORK_NAME) PRESSURE_WORKS(WORK_NAME)
             RECOIL_WORKS(WORK_NAME) LINE_WORKS(WORK_NAME) GUIDE_WIND_WORKS(WORK_NAME)
-                VEHICLE_WORKS(BASE_NAME) MARCHING_WORKS(MARCHING_NAME) JET_WORKS(BASE_NAME)};
+                GUIDE_JET_WORKS(WORK_NAME) VEHICLE_WORKS(BASE_NAME) MARCHING_WORKS(MARCHING_NAME)
+                    JET_WORKS(BASE_NAME)};
     int launching = launcher->launching.work_count;
     int place = i < launching ? i : POWER_COUNT + i - launching;
     if (i >= launching && model_has_multibody(launcher->model))

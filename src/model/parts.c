@@ -175,6 +175,16 @@ bool model_has_jet(const ld_model *model)
     return model_has_vehicle(model) && model->platform.jet.rows > 0;
 }
 
+bool model_has_guide_jet(const ld_model *model)
+{
+    return model_has_launcher(model) && model->tubes.jet.rows > 0;
+}
+
+bool model_has_jets(const ld_model *model)
+{
+    return model_has_jet(model) || model_has_guide_jet(model);
+}
+
 bool model_has_pressure(const ld_model *model)
 {
     return model_has_launcher(model) && model->tubes.pressure.present;

@@ -54,6 +54,10 @@ bool model_has_open_air(const ld_model *model);
 bool model_has_guide_wind(const ld_model *model);
 // Whether the rocket feels the air before its release.
 bool model_feels_air(const ld_model *model);
+// Whether the jet of the rocket that has left acts on its guide.
+bool model_has_guide_jet(const ld_model *model);
+// Whether jets act on anything.
+bool model_has_jets(const ld_model *model);
 // Whether the jets of rockets that have left act on the platform.
 bool model_has_jet(const ld_model *model);
 // Whether a pressure drives the rocket out of its tube.

@@ -12,7 +12,7 @@
 // What there is one of each: a run; a vehicle, where the base is one; a slot; air on the emerged
 // part of the rocket or on all of it in an open guide, jets on the platform, a pressure behind the
 // rocket, what all recoil slides do, where they are asked for; a round or WGS 84 Earth; a line
-// that the rocket pulls; wind on the guide; then several.
+// that the rocket pulls; wind, a jet on the guide; then several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
@@ -25,6 +25,7 @@ typedef enum quantity_each {
     EACH_EARTH,
     EACH_LINE,
     EACH_GUIDE_WIND,
+    EACH_GUIDE_JET,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,
     EACH_SHOE,  // an adaptor on a guide's surfaces

@@ -66,6 +66,7 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_MEASURE] = model_measure_count(model),
                   [EACH_LINE] = rocket->line.present,
                   [EACH_GUIDE_WIND] = model_has_guide_wind(model),
+                  [EACH_GUIDE_JET] = model_has_guide_jet(model),
                   [EACH_PARACHUTE] = rocket->parachute_count,
                   [EACH_LINE_PLACE] = rocket->line.present ? LD_LINE_PLACES : 0,
                   [EACH_STATION] = tubes->station_count,

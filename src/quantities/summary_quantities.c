@@ -345,6 +345,7 @@ static const quantity open_air_works[] = {OPEN_AIR_WORKS(LAUNCHING)};
 static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity line_works[] = {LINE_WORKS(LAUNCHING)};
 static const quantity guide_wind_works[] = {GUIDE_WIND_WORKS(LAUNCHING)};
+static const quantity guide_jet_works[] = {GUIDE_JET_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
 #define ROLLING(place, name, is) BASE_WORK(MECHANISM_POWERS + place, name, is)
@@ -386,6 +387,7 @@ static const quantity_group run_groups[] = {
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
     {.title = "work of the line on the rocket", .each = EACH_LINE, .launch = true, QUANTITY_ROWS(line_works)},
     {.title = "work of the wind on the guide", .each = EACH_GUIDE_WIND, .launch = true, QUANTITY_ROWS(guide_wind_works)},
+    {.title = "work of the jet on the guide", .each = EACH_GUIDE_JET, .launch = true, QUANTITY_ROWS(guide_jet_works)},
     {.title = "works of a multibody base", .each = EACH_MULTIBODY, .launch = true, QUANTITY_ROWS(multibody_works)},
     {.title = "works of its wheels", .each = EACH_ROLLING, .launch = true, QUANTITY_ROWS(rolling_works)},
     {.title = "work of jets", .each = EACH_JET, .launch = true, QUANTITY_ROWS(jet_works)},

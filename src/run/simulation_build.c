@@ -16,7 +16,7 @@
 static ld_status create_flights(ld_simulation *self, ld_error *error)
 {
     const ld_model *model = self->model;
-    if (!model_feels_air(model) && !model_has_jet(model) && !model_has_guide_wind(model))
+    if (!model_feels_air(model) && !model_has_jets(model) && !model_has_guide_wind(model))
         return LD_OK;
     self->flight_of = calloc((size_t)model_firing_count(model), sizeof *self->flight_of);
     if (!self->flight_of)

@@ -22,14 +22,26 @@ static moving_air air_at(const void *self, double t, v3 r)
     return flight_air_about(self, t, r);
 }
 
+// The tip of the guide without deflection, in I.
+static v3 tip_of(const launching_system *launching, const double *y)
+{
+    const launching_layout *at = &launching->layout;
+    v3 axis = m3_column(q_matrix(q_from(y + at->quaternion)), 0);
+    return v3_axpy(v3_from(y + at->r), launching->tube.flexible.length, axis);
+}
+
+static double jet_on_guide(const launch_state *self, double t, const double *y)
+{
+    int tube = model_firing(self->model, self->launcher.base.tube)->tube;
+    return jets_on_guide(&self->jets, t, tip_of(&self->launcher.launching, y), tube);
+}
+
 // The air about the guide, its turbulence that at the tip of the undeformed one.
 static void find_air_about(const launch_state *self, double t, const double *y,
                            launching_input *input)
 {
     const launching_system *launching = &self->launcher.launching;
-    const launching_layout *at = &launching->layout;
-    v3 axis = m3_column(q_matrix(q_from(y + at->quaternion)), 0);
-    v3 tip = v3_axpy(v3_from(y + at->r), launching->tube.flexible.length, axis);
+    v3 tip = tip_of(launching, y);
     input->about = (air_about){.at = air_at,
                                .self = self->air,
                                .t = t,
@@ -54,6 +66,7 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     input->load = disturbed ? &disturbed->input.launching : NULL;
     input->record = NULL;
     input->about.at = NULL;
+    input->guide_jet = self->jets.count ? jet_on_guide(self, t, y) : 0;
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
     if (self->air && self->launcher.launching.wind.count)

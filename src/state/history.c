@@ -275,6 +275,9 @@ static const quantity blown[] = {
     {"guide_wind.y", "N", "force of the wind on the guide, along y of R", AT(out.launching.guide_wind.y)},
     {"guide_wind.z", "N", "force of the wind on the guide, along z of R", AT(out.launching.guide_wind.z)},
 };
+static const quantity on_its_front[] = {
+    {"guide_jet.force", "N", "force of the jet on the guide's front end, backwards", AT(out.launching.guide_jet)},
+};
 #define LAUNCHING(place, name, is) {"work." name, "J", is, AT(energy.work[place])},
 #define BASE_WORK(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) BASE_WORK(VEHICLE_BODY_POWERS + place, name, is)
@@ -287,6 +290,7 @@ static const quantity pressure_works[] = {PRESSURE_WORKS(LAUNCHING)};
 static const quantity recoil_works[] = {RECOIL_WORKS(LAUNCHING)};
 static const quantity line_works[] = {LINE_WORKS(LAUNCHING)};
 static const quantity guide_wind_works[] = {GUIDE_WIND_WORKS(LAUNCHING)};
+static const quantity guide_jet_works[] = {GUIDE_JET_WORKS(LAUNCHING)};
 static const quantity vehicle_works[] = {VEHICLE_WORKS(BASE_WORK) MARCHING_WORKS(MARCHING)};
 #define ROLLING(place, name, is) BASE_WORK(MECHANISM_POWERS + place, name, is)
 static const quantity multibody_works[] = {MECHANISM_WORKS(BASE_WORK)};
@@ -315,6 +319,7 @@ static const quantity_group groups[] = {
     {.title = "pressure behind the rocket", .each = EACH_PRESSURE, ROCKET, QUANTITY_ROWS(pressures)},
     {.title = "line that the rocket pulls", .each = EACH_LINE, ROCKET, QUANTITY_ROWS(drawn)},
     {.title = "wind on the guide", .each = EACH_GUIDE_WIND, QUANTITY_ROWS(blown)},
+    {.title = "jet on the guide", .each = EACH_GUIDE_JET, QUANTITY_ROWS(on_its_front)},
     {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
     {.title = "section loads at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
     {.title = "section at a station", .each = EACH_STATION, QUANTITY_ROWS(sections)},
@@ -331,6 +336,7 @@ static const quantity_group balances[] = {
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
     {.title = "work of the line on the rocket", .each = EACH_LINE, QUANTITY_ROWS(line_works)},
     {.title = "work of the wind on the guide", .each = EACH_GUIDE_WIND, QUANTITY_ROWS(guide_wind_works)},
+    {.title = "work of the jet on the guide", .each = EACH_GUIDE_JET, QUANTITY_ROWS(guide_jet_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
     {.title = "works of a multibody base", .each = EACH_MULTIBODY, QUANTITY_ROWS(multibody_works)},
     {.title = "works of its wheels", .each = EACH_ROLLING, QUANTITY_ROWS(rolling_works)},

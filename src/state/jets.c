@@ -117,10 +117,14 @@ static ld_status find_course(jet *self, course *flown, double reach, const doubl
     return kept ? LD_OK : ld_fail(error, LD_ERR_MEMORY, "no memory for a rocket's jet");
 }
 
+static double reach_of(const ld_table *table)
+{
+    return table->rows > 0 ? table->data[(table->rows - 1) * table->columns] : 0;
+}
+
 ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *phase,
                    const jet_place *mouth, const double *state, ld_error *error)
 {
-    const ld_table *table = &model_platform(self->model)->jet;
     int tube = model_firing(self->model, self->count)->tube;
     jet *one = &self->of[self->count++];
     *one = (jet){.flight = flight,
@@ -131,7 +135,8 @@ ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *
     for (size_t k = 0; k < flight->motor.corner_count; k++)
         one->greatest = fmax(one->greatest, flight->motor.thrust[k]);
     course flown = {flight, *phase};
-    double reach = table->data[(table->rows - 1) * table->columns];
+    double reach =
+        fmax(reach_of(&model_platform(self->model)->jet), reach_of(&model_tubes(self->model)->jet));
     return find_course(one, &flown, reach, state, error);
 }
 
@@ -160,20 +165,35 @@ static double table_at(const ld_table *table, double distance)
     return 0;
 }
 
+// The force on something at a place [N]; 0 after the course.
+static double force_at(const jet *self, double t, const ld_table *table, double scale, v3 place)
+{
+    if (self->count < 2 || t > self->place[self->count - 1].t)
+        return 0;
+    double thrust = motor_thrust(&self->flight->motor, self->piece, t - self->t_ignition);
+    double full = scale * table_at(table, v3_norm(v3_sub(place_at(self, t), place)));
+    return full * thrust / self->greatest;
+}
+
+double jets_on_guide(const jets *self, double t, v3 tip, int launching)
+{
+    const ld_tubes *tubes = model_tubes(self->model);
+    double sum = 0;
+    for (int i = 0; i < self->count && tubes->jet.rows > 0; i++)
+        if (self->of[i].tube == launching)
+            sum += force_at(&self->of[i], t, &tubes->jet, tubes->jet_scale, tip);
+    return sum;
+}
+
 jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching)
 {
     const ld_platform *platform = model_platform(self->model);
     jet_wrench sum = {0};
     for (int i = 0; i < self->count; i++) {
         const jet *one = &self->of[i];
-        const motor *thruster = &one->flight->motor;
-        if (one->count < 2 || t > one->place[one->count - 1].t)
-            continue;
-        double thrust = motor_thrust(thruster, one->piece, t - one->t_ignition);
         v3 mouth = jets_mouth(self->model, one->tube, launching);
-        v3 away = v3_sub(place_at(one, t), v3_add(tube->r, m3_apply(tube->A, mouth)));
-        double full = platform->jet_scale * table_at(&platform->jet, v3_norm(away));
-        double force = full * thrust / one->greatest;
+        v3 place = v3_add(tube->r, m3_apply(tube->A, mouth));
+        double force = force_at(one, t, &platform->jet, platform->jet_scale, place);
         v3 back = v3_make(-force, 0, 0);
         sum.force = v3_add(sum.force, back);
         sum.moment = v3_add(sum.moment, v3_cross(mouth, back));

@@ -45,6 +45,10 @@ ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *
 // Their wrench at t, T being `tube` and that of the tube `launching`.
 jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching);
 
+// The force [N] on the front end, at `tip` of I, of the tube `launching`, backwards: that of the
+// rockets that have left it.
+double jets_on_guide(const jets *self, double t, v3 tip, int launching);
+
 // The first corner of a thrust curve that lies ahead.
 double jets_next_corner(const jets *self);
 // Begins the pieces of thrust curves that t has reached; true where there was one.

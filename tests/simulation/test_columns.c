@@ -761,6 +761,7 @@ static const char *const work_names[LAUNCHER_MOST_WORKS] = {
     [POWER_RECOIL] = "recoil",
     [POWER_LINE] = "line",
     [POWER_GUIDE_WIND] = "guide_wind",
+    [POWER_GUIDE_JET] = "guide_jet",
     BASE_WORK(VEHICLE_STABILISERS) = "stabilisers",
     BASE_WORK(VEHICLE_FRICTION) = "hinge_friction",
     BASE_WORK(VEHICLE_GRAVITY) = "gravity_platform",
@@ -794,6 +795,8 @@ static bool has_work(const ld_model *model, int i)
         return model->rocket.line.present;
     if (i == POWER_GUIDE_WIND)
         return model_has_guide_wind(model);
+    if (i == POWER_GUIDE_JET)
+        return model_has_guide_jet(model);
     if (i == POWER_COUNT + VEHICLE_JET)
         return model_has_jet(model);
     return i < POWER_COUNT || model_has_vehicle(model);

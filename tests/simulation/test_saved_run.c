@@ -13,7 +13,7 @@
 #include "scenario/scenario.h"
 #include "support/check.h"
 
-enum { MOST_SETS = 7, MOST_BYTES = 1 << 17, SPREAD = 120, MOST_INSTANTS = 300 };
+enum { MOST_SETS = 8, MOST_BYTES = 1 << 17, SPREAD = 120, MOST_INSTANTS = 300 };
 
 #define MEASURES                                                                                   \
     "measures=[{name: lit, of: tip.pitch, take: value, at: t_ignition}, "                          \
@@ -89,7 +89,8 @@ static const struct saved_case {
      {"firing=[{tube: 8, at: 0 s}, {tube: 9, at: 0.45 s}]", "run.lead_in=20 ms",
       "run.output_step.tube=0.5 ms", "rocket.lock=none",
       "rocket.aerodynamics.emerged={nose: 2.4 m, drag: 1.2}",
-      "platform.jet=[[0 m, 3 kN], [30 m, 0 kN]]", MEASURES},
+      "platform.jet=[[0 m, 3 kN], [30 m, 0 kN]]", "tubes.jet=[[0 m, 1 kN], [20 m, 0 kN]]",
+      MEASURES},
      0},
 };
 enum { CASES = sizeof cases / sizeof *cases };

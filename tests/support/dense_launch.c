@@ -1370,6 +1370,16 @@ static void add_guide_wind(equations *eq, const jet_scene *scene, const dense_co
     turn_back(output->guide_wind, scene->state->A_R[0], sum);
 }
 
+static void add_guide_jet(equations *eq, const jet_scene *scene, double force)
+{
+    jet_frame tip = tube_section_in_I(scene, scene->dense->model->tubes.length);
+    double f[3];
+    for (int i = 0; i < 3; i++)
+        f[i] = -force * tip.A.c[i][0].v;
+    add_force(eq->h, &tip.r, f);
+    add_force(eq->other, &tip.r, f);
+}
+
 // On an open guide: the air of the flight's own equations (support/dense_flight.c) on the rocket.
 static void add_open_air(equations *eq, const jet_scene *scene, const dense_conditions *on,
                          dense_launch_output *output)
@@ -1691,6 +1701,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     add_crossflow(&eq, &moving, conditions, s.v, output);
     add_open_air(&eq, &moving, conditions, output);
     add_guide_wind(&eq, &moving, conditions, output);
+    add_guide_jet(&eq, &moving, conditions->guide_jet);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)

@@ -146,6 +146,7 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->density = c->input.air.density;
     conditions->sound = c->input.air.speed_of_sound;
     conditions->power = c->input.power;
+    conditions->guide_jet = c->input.guide_jet;
     conditions->breech_speed = c->phase.breech_speed;
 }
 

@@ -106,7 +106,7 @@ static moving_air same_air(const void *self, double t, v3 r)
     return *(const moving_air *)self;
 }
 
-// A wind along the guide, of its own speeds in size.
+// A wind along the guide, of its own speeds in size, and a jet on its front end.
 static void blow_on_guide(uint64_t *seed, launching_case *c)
 {
     static moving_air air;
@@ -119,6 +119,7 @@ static void blow_on_guide(uint64_t *seed, launching_case *c)
     v3 gust = draw_v3(seed, 5);
     air.v = v3_sub(air.v, gust);
     c->input.about.turbulence = gust;
+    c->input.guide_jet = 500 * (1 + draw(seed));
 }
 
 static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name)

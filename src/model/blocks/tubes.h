@@ -93,6 +93,8 @@ typedef struct ld_tubes {
     ld_initial_shape initial_shape;
     int wind_drag_count;
     ld_wind_drag wind_drag[LD_MAX_WIND_DRAGS];
+    ld_table jet; ///< distance from the tip [m], force of a jet on the front end [N]; empty: none
+    double jet_scale; ///< [-] factor on the force
 } ld_tubes;
 
 #endif

@@ -932,6 +932,12 @@ static const field_row tubes_fields[] = {
     {"wind_drag", LIST(ld_tubes, wind_drag, wind_drag_count, wind_drag_block, 0, LD_MAX_WIND_DRAGS),
      .silent = true, .initial_doc = "none",
      .doc = "lengths of the guide that feel `environment.wind`; overlapping ones add up"},
+    {"jet", TABLE(ld_tubes, jet, jet_table), .initial_doc = "none",
+     .doc =
+         "force of the departed rocket's jet on the front end of its tube or rail, backwards, at "
+         "greatest thrust; over the distance from tip to rear adaptor, linear"},
+    {"jet_scale", NUMBER(ld_tubes, jet_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on that force"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 

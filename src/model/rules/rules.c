@@ -625,6 +625,8 @@ static void pressure_rules(const rule_set *rules)
         report_broken(rules, "rocket.motor", 0, "a launch requires a motor or tubes.pressure");
     if (model->rocket.motor.absent && model_has_jet(model))
         report_broken(rules, "platform.jet", 0, "requires a motor");
+    if (model->rocket.motor.absent && model_has_guide_jet(model))
+        report_broken(rules, "tubes.jet", 0, "requires a motor");
     if (!pressure->present)
         return;
     if (model_has_surfaces(model))

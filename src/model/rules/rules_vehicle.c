@@ -180,20 +180,22 @@ static void gain_rules(const rule_set *rules, const char *path, const ld_stabili
 }
 
 // A jet is there from the tube's exit on and ends within its table.
-static void jet_rules(const rule_set *rules, const ld_table *jet)
+static void jet_rules(const rule_set *rules, const char *name, const ld_table *jet)
 {
+    char row[64], first[64];
+    snprintf(row, sizeof row, "%s.#", name);
+    snprintf(first, sizeof first, "%s.1", name);
     if (jet->rows == 0)
         return;
-    rising_rule(rules, "platform.jet.#", jet, "m", false);
+    rising_rule(rules, row, jet, "m", false);
     const double *last = &jet->data[(jet->rows - 1) * jet->columns];
     if (jet->data[0] > 0)
-        report_broken(rules, "platform.jet.1", 0, "the first distance must be 0 m, not %g m",
-                      jet->data[0]);
+        report_broken(rules, first, 0, "the first distance must be 0 m, not %g m", jet->data[0]);
     if (last[1] > 0)
-        report_broken(rules, "platform.jet.#", (int)jet->rows,
+        report_broken(rules, row, (int)jet->rows,
                       "the last force must be 0 N, not %g N: the force ends there", last[1]);
     if (jet->rows == 1)
-        report_broken(rules, "platform.jet", 0, "needs at least two rows");
+        report_broken(rules, name, 0, "needs at least two rows");
 }
 
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,
@@ -212,7 +214,8 @@ static void turret_rules(const rule_set *rules, const char *name, const ld_turre
 void vehicle_rules(const rule_set *rules)
 {
     const ld_platform *platform = &rules->model->platform;
-    jet_rules(rules, &platform->jet);
+    jet_rules(rules, "platform.jet", &platform->jet);
+    jet_rules(rules, "tubes.jet", &rules->model->tubes.jet);
     bool wheels = model_has_multibody(rules->model) && rules->model->base.vehicle.wheel_count > 0;
     if (!model_has_vehicle(rules->model) && !wheels)
         return;

@@ -45,6 +45,8 @@ void launching_set_rocket(launching_system *self, const ld_rocket *rocket)
 // Works up to the last kind that the model has.
 static int works_of(const ld_model *model)
 {
+    if (model_has_guide_jet(model))
+        return POWER_GUIDE_JET + 1;
     if (model_has_guide_wind(model))
         return POWER_GUIDE_WIND + 1;
     if (model_rocket(model)->line.present)
@@ -55,8 +57,8 @@ static int works_of(const ld_model *model)
                                        : POWER_ALWAYS;
 }
 
-// Modes and coefficients follow from all keys of `tubes` but those of slot, guide, pressure and
-// wind, of where the tubes are and of what is asked for.
+// Modes and coefficients follow from all keys of `tubes` but those of slot, guide, pressure,
+// wind and jet, of where the tubes are and of what is asked for.
 static bool same_tube(const ld_tubes *a, const ld_tubes *b)
 {
     for (const field_row *key = tubes_block.fields; key->name; key++) {
@@ -67,6 +69,8 @@ static bool same_tube(const ld_tubes *a, const ld_tubes *b)
                              key->offset == offsetof(ld_tubes, guide) ||
                              key->offset == offsetof(ld_tubes, initial_shape) ||
                              key->offset == offsetof(ld_tubes, wind_drag) ||
+                             key->offset == offsetof(ld_tubes, jet) ||
+                             key->offset == offsetof(ld_tubes, jet_scale) ||
                              key->offset == offsetof(ld_tubes, station);
         if (!planes_differ && !field_same(key, a, b))
             return false;

@@ -10,6 +10,7 @@
 #include "elements/guide/crossflow.h"
 #include "elements/guide/drag.h"
 #include "elements/guide/guide_cut.h"
+#include "elements/guide/guide_jet.h"
 #include "elements/guide/guide_wind.h"
 #include "elements/guide/ideal.h"
 #include "elements/guide/line_pull.h"
