@@ -5,6 +5,7 @@
 
 #include "model/blocks/rocket.h"
 #include "state/exit_figures.h"
+#include "systems/flight/canopy.h"
 #include "systems/flight/line.h"
 
 typedef struct flight_instant {
@@ -15,8 +16,10 @@ typedef struct flight_instant {
     double mass, thrust;
     flight_flow flow;
     double acceleration, margin, drag_area;
-    v3 w_dot, force;          // against inertial axes, in B; force: specific, at O1
-    flight_place place;       // on a round or WGS 84 Earth
+    v3 w_dot, force;    // against inertial axes, in B; force: specific, at O1
+    flight_place place; // on a round or WGS 84 Earth
+    double lines_force;
+    earth_motion canopy;
     double tension, paid_out; // of the line
     struct {
         double x, y, z;
@@ -83,6 +86,15 @@ static const quantity on_earth[] = {
     {"local_pitch", "rad", "of the rocket's axis above the local horizon", AT(place.pitch)},
     {"local_roll", "rad", "of the rocket, Ry(-heading) Rz(pitch) Rx(roll) against north, up, east", AT(place.roll)},
 };
+static const quantity descent[] = {
+    {"canopy.x", "m", "canopy on its lines, in I", AT(canopy.r.x)},
+    {"canopy.y", "m", "canopy on its lines, in I", AT(canopy.r.y)},
+    {"canopy.z", "m", "canopy on its lines, in I", AT(canopy.r.z)},
+    {"canopy.vx", "m/s", "velocity of the canopy against the ground, in I", AT(canopy.v.x)},
+    {"canopy.vy", "m/s", "velocity of the canopy against the ground, in I", AT(canopy.v.y)},
+    {"canopy.vz", "m/s", "velocity of the canopy against the ground, in I", AT(canopy.v.z)},
+    {"canopy.line_force", "N", "force of its lines on the rocket", AT(lines_force)},
+};
 static const quantity pulled[] = {
     {"line.tension", "N", "pull of the line on the rocket", AT(tension)},
     {"line.paid_out", "m", "unstretched length that has left the container", AT(paid_out)},
@@ -97,12 +109,13 @@ static const quantity line_places[] = {
 static const quantity_group groups[] = {
     {.title = "flight", QUANTITY_ROWS(flight)},
     {.title = "on a round or WGS 84 Earth", .each = EACH_EARTH, QUANTITY_ROWS(on_earth)},
+    {.title = "canopy with a mass of its own", .each = EACH_DESCENT, QUANTITY_ROWS(descent)},
     {.title = "line that the rocket pulls", .each = EACH_LINE, QUANTITY_ROWS(pulled)},
     {.title = "places of the line", .each = EACH_LINE_PLACE, QUANTITY_ROWS(line_places)},
 };
 // clang-format on
 
-_Static_assert((sizeof flight + sizeof on_earth + sizeof pulled +
+_Static_assert((sizeof flight + sizeof on_earth + sizeof descent + sizeof pulled +
                 LD_LINE_PLACES * sizeof line_places) /
                        sizeof *flight <=
                    FLIGHT_MAX_COLUMNS,
@@ -115,6 +128,7 @@ ld_status flight_columns(const flight_system *system, quantity_columns *columns,
     bool pulls = system->rocket && system->rocket->line.present;
     const quantity_things things = {.count = {[EACH_RUN] = 1,
                                               [EACH_EARTH] = !system->earth.flat,
+                                              [EACH_DESCENT] = system->canopies,
                                               [EACH_LINE] = pulls,
                                               [EACH_LINE_PLACE] = pulls ? LD_LINE_PLACES : 0}};
     return quantity_columns_make(columns, &(quantity_part){&flight_quantities, 0}, 1, &things,
@@ -160,6 +174,19 @@ static void find_line(const flight_system *system, const flight_phase *phase, fl
     }
 }
 
+static void find_canopy(const flight_system *system, const flight_phase *phase, const double *state,
+                        flight_instant *now)
+{
+    const v3 unknown = v3_make(NAN, NAN, NAN);
+    now->canopy = (earth_motion){unknown, unknown};
+    now->lines_force = 0;
+    if (!phase->canopy.given)
+        return;
+    v3 v = v3_add(v3_from(state + FLIGHT_V), v3_from(state + FLIGHT_CANOPY_U));
+    now->canopy = earth_to_ground(&system->earth, now->t, canopy_place(state), v);
+    now->lines_force = canopy_force(phase, state);
+}
+
 void flight_row(const flight_system *system, const quantity_columns *columns,
                 const flight_phase *phase, double t, const double *state,
                 double row[FLIGHT_MAX_COLUMNS])
@@ -175,7 +202,7 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     if (phase->hangs) // a point has no axis
         now.flow.angle_of_attack = now.margin = NAN;
     flight_phase rated = *phase;
-    double rates[FLIGHT_STATES];
+    double rates[FLIGHT_ALL_STATES];
     flight_rates(system, &rated, t, state, rates);
     now.acceleration = v3_norm(v3_from(rates + FLIGHT_V));
     find_inertial(system, phase, state, rates, &now);
@@ -185,6 +212,7 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     now.angles = direction_angles_of(axis, v3_cross(w, axis));
     if (!system->earth.flat)
         now.place = flight_place_at(system, t, state, A_IB);
+    find_canopy(system, phase, state, &now);
     if (phase->line)
         find_line(system, phase, &now);
     quantity_row(columns, &now, row);

@@ -152,7 +152,7 @@ static bool load_next(lane_group *self, int i)
     int other = any_in_the_air(self);
     if (status || !flight_run_continues(&one->run)) {
         end_lane(self, i, status);
-    } else if (self->count == 1 || one->run.line ||
+    } else if (self->count == 1 || one->run.line || flight->job.system->canopies ||
                (other >= 0 && !flight_is_like(flight->job.system, self->side.system[other]))) {
         fly_alone(self, i);
     } else {

@@ -34,7 +34,8 @@ typedef struct lane_source {
 // LAUNCHDYN_PLAIN, 1. Never more than LAUNCHDYN_LANES in the environment.
 int flight_lanes_here(void);
 
-// Flies until there is none. A flight unlike those in the air (flight_is_like) is flown alone.
+// Flies until there is none. A flight unlike those in the air (flight_is_like), with a
+// line or with canopies of a mass is flown alone.
 // @return LD_OK or LD_ERR_MEMORY, where none has been asked for
 ld_status flight_lanes_fly(int lanes, const lane_source *source, ld_error *error);
 

@@ -7,6 +7,7 @@
 #include "math/functions.h"
 #include "model/parts.h"
 #include "state/simulation.h"
+#include "systems/flight/canopy.h"
 
 static void slopes(const double *t, const double *y, double *y_dot, void *self)
 {
@@ -191,7 +192,7 @@ static void watch_extremes(flight_run *run, double t, const double *y)
     take_height(run, t, y);
     watch_pressure(run, &flow);
     watch_acceleration(run);
-    bool in_air = flow.density > 0 && !run->phase.hangs;
+    bool in_air = flow.density > 0 && !run->phase.hangs && !run->phase.canopy.given;
     if (flow.airspeed > 0 && in_air && flow.across * most->along > flow.along * most->across) {
         most->across = flow.across;
         most->along = flow.along;
@@ -259,9 +260,9 @@ static ld_status report_progress(flight_run *run, double t, const double *y)
 // One Runge-Kutta step of the classical kind.
 static void small_step(flight_run *run, double t, double h, double *y)
 {
-    double k[4][FLIGHT_STATES], at[FLIGHT_STATES];
+    double k[4][FLIGHT_ALL_STATES], at[FLIGHT_ALL_STATES];
     const double part[4] = {0, 0.5, 0.5, 1};
-    int states = run->job->system->states;
+    int states = run->phase.canopy.given ? FLIGHT_ALL_STATES : run->job->system->states;
     for (int stage = 0; stage < 4; stage++) {
         for (int i = 0; i < states; i++)
             at[i] = y[i] + (stage ? part[stage] * h * k[stage - 1][i] : 0);
@@ -551,35 +552,101 @@ static bool cut_step(flight_run *run, double *apex)
     return run->topped || next_opening(run) <= cut;
 }
 
-// The rocket, which hangs below parachute i from now on, does not turn.
-static void open_parachute(flight_run *run, int i, double t, double *y)
+// It begins to fill where its lines are taut.
+static void put_canopy_out(flight_run *run, int i, double t, double *y)
 {
     const flight_system *system = run->job->system;
     const ld_parachute *one = &system->rocket->parachute[i];
-    ld_parachute_summary *opened = &run->rocket->parachute[i];
+    if (run->canopy < 0)
+        descent_set_tolerances(&run->steps, model_run(run->job->model)->flight_tolerance);
+    canopy_open(system, &run->phase, i, t, y);
+    flight_hang(system, &run->phase, t, one->canopy.packed_area, 0);
+    run->canopy = i;
+    run->descent = (descent){.t_switch = NAN};
+    run->t_full = INFINITY;
+    run->area = one->drag_area;
+    run->opened[i] = true;
+}
+
+// The rocket, which hangs below parachute i from now on, does not turn.
+static void hang_below(flight_run *run, int i, double t, double *y)
+{
+    const ld_parachute *one = &run->job->system->rocket->parachute[i];
     double before = flight_drag_area(&run->phase, t);
-    *opened = (ld_parachute_summary){t - run->job->t_ignition, flight_height(system, y),
-                                     flight_flow_at(system, t, y).airspeed};
-    if (system->has_ground)
-        opened->height -= system->ground;
-    if (run->phase.burning && !run->phase.hangs)
-        summary_note(
-            run->summary,
-            "parachute %s opened at t = %.4f s while the motor was burning: the thrust ends there",
-            one->name, t);
-    if (run->phase.hangs && one->drag_area < run->area)
-        summary_note(run->summary,
-                     "parachute %s of %.4g m2, opened at t = %.4f s, replaced one of %.4g m2: the "
-                     "drag falls",
-                     one->name, one->drag_area, t, run->area);
     bool at_once = one->filling == 0 || one->drag_area == before;
-    flight_hang(system, &run->phase, t, one->drag_area,
+    flight_hang(run->job->system, &run->phase, t, one->drag_area,
                 at_once ? 0 : (one->drag_area - before) / one->filling);
     run->t_full = at_once ? INFINITY : t + one->filling;
     run->area = one->drag_area;
     run->opened[i] = true;
     for (int k = 0; k < 3; k++)
         y[FLIGHT_W + k] = 0;
+}
+
+static void open_parachute(flight_run *run, int i, double t, double *y)
+{
+    const flight_system *system = run->job->system;
+    const ld_parachute *one = &system->rocket->parachute[i];
+    ld_parachute_summary *opened = &run->rocket->parachute[i];
+    *opened = (ld_parachute_summary){t - run->job->t_ignition,
+                                     flight_height(system, y),
+                                     flight_flow_at(system, t, y).airspeed,
+                                     NAN,
+                                     NAN,
+                                     NAN,
+                                     NAN};
+    if (system->has_ground)
+        opened->height -= system->ground;
+    bool opens_first = !run->phase.hangs && !run->phase.canopy.given;
+    if (run->phase.burning && opens_first)
+        summary_note(
+            run->summary,
+            "parachute %s opened at t = %.4f s while the motor was burning: the thrust ends there",
+            one->name, t);
+    if (!opens_first && one->drag_area < run->area)
+        summary_note(run->summary,
+                     "parachute %s of %.4g m2, opened at t = %.4f s, replaced one of %.4g m2: the "
+                     "drag falls",
+                     one->name, one->drag_area, t, run->area);
+    if (one->canopy.present)
+        put_canopy_out(run, i, t, y);
+    else
+        hang_below(run, i, t, y);
+}
+
+// The lines become taut or slack; the first time the canopy begins to fill.
+static void switch_lines(flight_run *run)
+{
+    const flight_system *system = run->job->system;
+    const dormand_prince_numbers *step = &run->steps.step;
+    flight_phase *phase = &run->phase;
+    canopy_switch(phase, !phase->canopy.taut);
+    if (phase->canopy.taut && !run->descent.filling) {
+        const ld_parachute *one = &system->rocket->parachute[run->canopy];
+        run->descent.filling = true;
+        run->rocket->parachute[run->canopy].t_taut = step->t - run->job->t_ignition;
+        double more = one->drag_area - one->canopy.packed_area;
+        bool at_once = one->filling == 0 || more == 0;
+        flight_hang(system, phase, step->t, one->drag_area, at_once ? 0 : more / one->filling);
+        run->t_full = at_once ? INFINITY : step->t + one->filling;
+    }
+    run->descent.t_switch = NAN;
+    dormand_prince_start(&run->steps, step->t, step->y);
+    watch_acceleration(run);
+}
+
+static void note_loads(flight_run *run)
+{
+    for (int i = 0; i < parachutes_of(run); i++) {
+        const ld_parachute *one = &run->job->system->rocket->parachute[i];
+        const ld_parachute_summary *of = &run->rocket->parachute[i];
+        if (one->canopy.present && of->greatest_force > one->canopy.strength)
+            summary_note(run->summary,
+                         "parachute %s: its lines carry %.4g N at t = %.4f s, more than their "
+                         "strength of %.4g N",
+                         one->name, of->greatest_force, of->t_greatest_force + run->job->t_ignition,
+                         one->canopy.strength);
+    }
 }
 
 // Parachutes that open at or before t, and one that is full; true where there was one.
@@ -790,6 +857,9 @@ static ld_status after_step(flight_run *run, double apex, bool stopped)
             status = write_row(run, apex, y);
     }
     run->landed = end_on_ground(run, apex);
+    if (run->phase.canopy.given)
+        descent_watch(&run->descent, &run->phase, &run->steps, run->job->t_ignition,
+                      &run->rocket->parachute[run->canopy]);
     measure_step(run, apex);
     if (!status)
         status = write_rows(run, steps->step.t);
@@ -889,14 +959,35 @@ ld_status flight_run_examine(flight_run *run, bool seen)
     return LD_OK;
 }
 
+// After a step below a canopy, which may end where its lines become taut or slack; it may end even
+// earlier.
+static ld_status end_step_below(flight_run *run)
+{
+    int canopy = run->canopy;
+    descent_locate(&run->descent, &run->phase, &run->steps);
+    ld_status status = flight_run_examine(run, true);
+    if (!status && run->canopy == canopy && run->steps.step.t == run->descent.t_switch &&
+        flight_run_continues(run)) {
+        switch_lines(run);
+        set_next(run);
+    }
+    return status;
+}
+
 ld_status flight_run_step(flight_run *run)
 {
     dormand_prince_numbers *step = &run->steps.step;
-    double stop = step->t_stop;
-    if (run->line)
+    double stop = step->t_stop, most = stop;
+    if (run->line) {
         step_line(run);
-    dormand_prince_step(&run->steps, run->line ? fmin(stop, run->line->t) : stop);
+        most = fmin(stop, run->line->t);
+    }
+    if (run->phase.canopy.given)
+        most = fmin(most, descent_stop(&run->phase, &run->steps));
+    dormand_prince_step(&run->steps, most);
     step->t_stop = stop;
+    if (run->phase.canopy.given)
+        return end_step_below(run);
     const flight_step ends = ends_of(run);
     bool seen = flight_watch(run->job->system, &run->phase, &ends);
     bool due = step->steps >= run->next_check || step->t == step->t_stop ||
@@ -909,6 +1000,7 @@ static ld_status begin(flight_run *run, const double *y)
     const free_flight *job = run->job;
     double start[DORMAND_PRINCE_STATES] = {0};
     memcpy(start, y, FLIGHT_STATES * sizeof(double));
+    const double *first = run->job->system->canopies ? start : y;
     set_tolerances(run);
     pass_parachutes(run, job->t_start, start);
     dormand_prince_start(&run->steps, job->t_start, start);
@@ -917,9 +1009,9 @@ static ld_status begin(flight_run *run, const double *y)
         if (made)
             return made;
     }
-    double height = flight_height(job->system, y);
+    double height = flight_height(job->system, first);
     run->t_limit = job->t_start + model_run(job->model)->flight_limit;
-    watch_extremes(run, job->t_start, y);
+    watch_extremes(run, job->t_start, first);
     if (job->system->has_ground && height < job->system->ground)
         return ld_fail(
             run->error, LD_ERR_LAUNCH,
@@ -927,10 +1019,10 @@ static ld_status begin(flight_run *run, const double *y)
             "%s %.6g m, the ground at %.6g m",
             job->system->earth.flat ? "y =" : "an altitude of", height, job->system->ground);
     measuring_begin(run->window, job->measure->count);
-    measure_now(run, job->t_start, y);
+    measure_now(run, job->t_start, first);
     set_next(run);
     ld_status status = check_table(run);
-    return status ? status : write_row(run, job->t_start, y);
+    return status ? status : write_row(run, job->t_start, first);
 }
 
 static void note_warnings(flight_run *run)
@@ -953,6 +1045,7 @@ static void note_warnings(flight_run *run)
                      run->steps.step.t);
     if (run->landed)
         note_closed(run);
+    note_loads(run);
 }
 
 // Neither fins nor spin keep the rocket straight: the centre of pressure lies before the mass
@@ -997,7 +1090,9 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .t_beyond = NAN,
                         .t_tumbling = NAN,
                         .t_topped = NAN,
-                        .t_full = INFINITY};
+                        .t_full = INFINITY,
+                        .canopy = -1,
+                        .descent = {.t_switch = NAN}};
     rocket->flown = true;
     set_triggers(run);
     flight_flow about = flight_flow_at(job->system, job->t_start, state);

@@ -2,6 +2,7 @@
 #ifndef LD_FLIGHT_FREE_FLIGHT_H
 #define LD_FLIGHT_FREE_FLIGHT_H
 
+#include "flight/descent.h"
 #include "integration/dormand_prince.h"
 #include "quantities/measuring.h"
 #include "quantities/quantity_table.h"
@@ -63,6 +64,8 @@ typedef struct flight_run {
     double t_topped;                   // when a step was ended there; NaN: none was
     double t_open[LD_MAX_PARACHUTES];  // NaN: not triggered yet
     bool opened[LD_MAX_PARACHUTES];
+    int canopy;               // the parachute below whose canopy it flies, -1: none
+    descent descent;          // of it
     double t_full, area;      // when the one that fills is full [s], infinity: none does; then [m2]
     quantity_columns columns; // where something is measured
     measure_window window[LD_MAX_TAKEN];

@@ -6,6 +6,11 @@
 
 enum { N = DORMAND_PRINCE_STATES };
 
+static int states_of(const dormand_prince *self)
+{
+    return self->count > DORMAND_PRINCE_FEW ? N : DORMAND_PRINCE_FEW;
+}
+
 static void evaluate(dormand_prince *self, double t, const double *y, double *y_dot)
 {
     self->f(&t, y, y_dot, self->self);
@@ -15,7 +20,7 @@ static void evaluate(dormand_prince *self, double t, const double *y, double *y_
 static double norm(const dormand_prince *self, const double *v, const double *y)
 {
     double sum = 0;
-    for (int i = 0; i < N; i++) {
+    for (int i = 0, n = states_of(self); i < n; i++) {
         double share = v[i] / (self->step.absolute[i] + self->step.relative[i] * fabs(y[i]));
         sum += share * share;
     }
@@ -31,10 +36,10 @@ static double first_size(dormand_prince *self)
            d1 = norm(self, self->step.k[6], self->step.y);
     double h = d0 > 1e-5 && d1 > 1e-5 ? 0.01 * d0 / d1 : 1e-6;
     h = fmin(h, 0.1);
-    for (int i = 0; i < N; i++)
+    for (int i = 0, n = states_of(self); i < n; i++)
         at[i] = self->step.y[i] + h * self->step.k[6][i];
     evaluate(self, self->step.t + h, at, slope);
-    for (int i = 0; i < N; i++)
+    for (int i = 0, n = states_of(self); i < n; i++)
         change[i] = (slope[i] - self->step.k[6][i]) / h;
     double d2 = fmax(norm(self, change, self->step.y), d1);
     double h1 = d2 > 1e-15 ? pow(0.01 / d2, 0.2) : fmax(1e-6, 1e-3 * h);
@@ -67,7 +72,7 @@ bool dormand_prince_step(dormand_prince *self, double t_stop)
 void dormand_prince_retake(dormand_prince *self, double t)
 {
     self->step.size = t - self->step.t0;
-    dormand_prince_stages(&self->step, self->f, self->self);
+    dormand_prince_stages(&self->step, self->count, self->f, self->self);
     self->step.t = t;
     self->open = false;
 }
@@ -79,7 +84,7 @@ static void course_at(const dormand_prince *self, double x, double *y)
 {
     double left = 1 - x, w = x * x * left * left, h = self->step.t - self->step.t0;
     double end = x * x * (3 - 2 * x), first = h * x * left * left, last = -h * x * x * left;
-    for (int i = 0; i < N; i++)
+    for (int i = 0, n = states_of(self); i < n; i++)
         y[i] = self->step.y0[i] + end * (self->step.y[i] - self->step.y0[i]) +
                (first * self->step.k[0][i] + last * self->step.k[6][i]) +
                w * (self->course[0][i] + self->course[1][i] * x);
@@ -96,7 +101,7 @@ static void find_course(dormand_prince *self)
             course_at(self, (k + 1) / 3.0, at);
             evaluate(self, self->step.t0 + h * (k + 1) / 3.0, at, f[k]);
         }
-        for (int i = 0; i < N; i++) {
+        for (int i = 0, n = states_of(self); i < n; i++) {
             // less the cubic's slopes there
             double rise = 4.0 / 3 * (self->step.y[i] - self->step.y0[i]);
             double a = h * f[0][i] - (rise - h * self->step.k[6][i] / 3);

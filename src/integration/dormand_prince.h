@@ -7,7 +7,8 @@
 
 #include <stdbool.h>
 
-enum { DORMAND_PRINCE_STATES = 16, DORMAND_PRINCE_STAGES = 7 };
+// Most states; where not more than the fewer count, the others are left alone.
+enum { DORMAND_PRINCE_STATES = 22, DORMAND_PRINCE_FEW = 16, DORMAND_PRINCE_STAGES = 7 };
 
 // y_dot = f(t, y) of all the states (those not used: 0).
 typedef void dormand_prince_slopes(const double *t, const double *y, double *y_dot, void *self);
@@ -57,14 +58,16 @@ bool dormand_prince_step(dormand_prince *self, double t_stop);
 
 // Trials of steps side by side, in a block [DORMAND_PRINCE_NUMBERS][lanes] of 4 or 8 lanes, aligned
 // for these, by slopes of as many; `count` states count. Where the last trial's outcome is a step
-// that is done the next one begins. Each lane has the bits of one alone.
+// that is done the next one begins. Each lane has the bits of one alone. Lanes have the fewer
+// states.
 enum { DORMAND_PRINCE_NUMBERS = sizeof(dormand_prince_numbers) / sizeof(double) };
 void dormand_prince_try_default(double *block, int count, dormand_prince_slopes *f, void *self);
 void dormand_prince_try_avx2(double *block, int count, dormand_prince_slopes *f, void *self);
 void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *f, void *self);
 
-// y at the end of the step of size `size` from y0, with its stages.
-void dormand_prince_stages(dormand_prince_numbers *step, dormand_prince_slopes *f, void *self);
+// y at the end of the step of size `size` from y0, with its stages; `count` states count.
+void dormand_prince_stages(dormand_prince_numbers *step, int count, dormand_prince_slopes *f,
+                           void *self);
 
 // Takes the last step again so that it ends at t, within it.
 void dormand_prince_retake(dormand_prince *self, double t);

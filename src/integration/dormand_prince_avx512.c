@@ -4,5 +4,5 @@
 
 void dormand_prince_try_avx512(double *block, int count, dormand_prince_slopes *f, void *self)
 {
-    try_steps(block, count, f, self);
+    try_steps(block, count, DORMAND_PRINCE_FEW, f, self);
 }

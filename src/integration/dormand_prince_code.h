@@ -21,16 +21,23 @@ static const double weight[DORMAND_PRINCE_STAGES][DORMAND_PRINCE_STAGES - 1] = {
 static const double difference[DORMAND_PRINCE_STAGES] = {
     71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 
+// Each number of states has an instance of its own: `states` is a constant where these are called.
+
+typedef struct stage_weights {
+    const double *a;
+    int count;
+} stage_weights;
+
 // out = y + h sum of a_j k_j, j < count; unrolled for each count.
-LD_ALWAYS_INLINE void combine(const real *y, real h, const double *a, int count,
-                              const real k[][DORMAND_PRINCE_STATES], real *out)
+LD_ALWAYS_INLINE void combine(const real *y, real h, stage_weights of,
+                              const real k[][DORMAND_PRINCE_STATES], int states, real *out)
 {
     real b[DORMAND_PRINCE_STAGES];
-    for (int j = 0; j < count; j++)
-        b[j] = h * a[j];
-    for (int i = 0; i < DORMAND_PRINCE_STATES; i++) {
+    for (int j = 0; j < of.count; j++)
+        b[j] = h * of.a[j];
+    for (int i = 0; i < states; i++) {
         real sum = b[0] * k[0][i];
-        for (int j = 1; j < count; j++)
+        for (int j = 1; j < of.count; j++)
             sum += b[j] * k[j][i];
         out[i] = y[i] + sum;
     }
@@ -39,14 +46,14 @@ LD_ALWAYS_INLINE void combine(const real *y, real h, const double *a, int count,
 #define OF_STEP(member) (*REALS(block, dormand_prince_numbers, member))
 
 // Where the last step is done the next one begins at its end.
-LD_INLINE void begin_steps(double *block)
+LD_ALWAYS_INLINE void begin_steps(double *block, int states)
 {
     real_condition done = OF_STEP(outcome) == (double)DORMAND_PRINCE_DONE;
     real *y0 = REALS(block, dormand_prince_numbers, y0),
          *y = REALS(block, dormand_prince_numbers, y);
     real *first = REALS(block, dormand_prince_numbers, k[0]),
          *last = REALS(block, dormand_prince_numbers, k[DORMAND_PRINCE_STAGES - 1]);
-    for (int i = 0; i < DORMAND_PRINCE_STATES; i++) {
+    for (int i = 0; i < states; i++) {
         y0[i] = real_select(done, y[i], y0[i]);
         first[i] = real_select(done, last[i], first[i]);
     }
@@ -66,7 +73,7 @@ LD_INLINE real_condition choose_size(double *block)
 }
 
 // The stages of the step of size `size` from (t0, y0), where k[0] is known; y: its end.
-LD_INLINE void take_stages(double *block, dormand_prince_slopes f, void *self)
+LD_ALWAYS_INLINE void take_stages(double *block, int states, dormand_prince_slopes f, void *self)
 {
     real h = OF_STEP(size), t0 = OF_STEP(t0);
     const real *y0 = REALS(block, dormand_prince_numbers, y0);
@@ -74,7 +81,8 @@ LD_INLINE void take_stages(double *block, dormand_prince_slopes f, void *self)
         (real(*)[DORMAND_PRINCE_STATES])REALS(block, dormand_prince_numbers, k);
     real at[DORMAND_PRINCE_STATES], t;
 #define STAGE(s, to)                                                                               \
-    combine(y0, h, weight[s], s, (const real(*)[DORMAND_PRINCE_STATES])k, to);                     \
+    combine(y0, h, (stage_weights){weight[s], s}, (const real(*)[DORMAND_PRINCE_STATES])k, states, \
+            to);                                                                                   \
     t = t0 + node[s] * h;                                                                          \
     f((const double *)&t, (const double *)(to), (double *)k[s], self)
     STAGE(1, at);
@@ -88,7 +96,7 @@ LD_INLINE void take_stages(double *block, dormand_prince_slopes f, void *self)
 
 // Mean over the states of the square of the step's error against what is allowed: 1 is just
 // allowed. Not finite where the slopes are not.
-LD_INLINE void find_error(double *block, int count)
+LD_ALWAYS_INLINE void find_error(double *block, int count, int states)
 {
     const real zero[DORMAND_PRINCE_STATES] = {0};
     const real *y0 = REALS(block, dormand_prince_numbers, y0),
@@ -96,9 +104,10 @@ LD_INLINE void find_error(double *block, int count)
                *absolute = REALS(block, dormand_prince_numbers, absolute),
                *relative = REALS(block, dormand_prince_numbers, relative);
     real e[DORMAND_PRINCE_STATES], sum = real_all(0);
-    combine(zero, OF_STEP(size), difference, DORMAND_PRINCE_STAGES,
-            (const real(*)[DORMAND_PRINCE_STATES])REALS(block, dormand_prince_numbers, k), e);
-    for (int i = 0; i < DORMAND_PRINCE_STATES; i++) {
+    combine(zero, OF_STEP(size), (stage_weights){difference, DORMAND_PRINCE_STAGES},
+            (const real(*)[DORMAND_PRINCE_STATES])REALS(block, dormand_prince_numbers, k), states,
+            e);
+    for (int i = 0; i < states; i++) {
         real size = real_max(real_abs(y0[i]), real_abs(y[i]));
         real share = e[i] / (absolute[i] + relative[i] * size);
         sum += share * share;
@@ -107,7 +116,7 @@ LD_INLINE void find_error(double *block, int count)
 }
 
 // Whether the step is good enough, and the next size. `last`: it ends at its stop.
-LD_INLINE void judge(double *block, real_condition last)
+LD_ALWAYS_INLINE void judge(double *block, real_condition last, int states)
 {
     real size = OF_STEP(size), error = OF_STEP(error), h = OF_STEP(h);
     // two stops may be a rounding apart
@@ -135,17 +144,18 @@ LD_INLINE void judge(double *block, real_condition last)
     OF_STEP(outcome) = real_select(done, real_all(DORMAND_PRINCE_DONE), failed);
     real *y0 = REALS(block, dormand_prince_numbers, y0),
          *y = REALS(block, dormand_prince_numbers, y);
-    for (int i = 0; i < DORMAND_PRINCE_STATES; i++)
+    for (int i = 0; i < states; i++)
         y[i] = real_select(goes, y[i], y0[i]);
 }
 
-LD_INLINE void try_steps(double *block, int count, dormand_prince_slopes f, void *self)
+LD_ALWAYS_INLINE void try_steps(double *block, int count, int states, dormand_prince_slopes f,
+                                void *self)
 {
-    begin_steps(block);
+    begin_steps(block, states);
     real_condition last = choose_size(block);
-    take_stages(block, f, self);
-    find_error(block, count);
-    judge(block, last);
+    take_stages(block, states, f, self);
+    find_error(block, count, states);
+    judge(block, last, states);
 }
 
 #endif

@@ -12,7 +12,7 @@
 // What there is one of each: a run; a vehicle, where the base is one; a slot; air on the emerged
 // part of the rocket or on all of it in an open guide, jets on the platform, a pressure behind the
 // rocket, what all recoil slides do, where they are asked for; a round or WGS 84 Earth; a line
-// that the rocket pulls; wind, a jet on the guide; then several.
+// that the rocket pulls; wind, a jet on the guide; a canopy below which it flies; then several.
 typedef enum quantity_each {
     EACH_RUN,
     EACH_VEHICLE,
@@ -26,6 +26,7 @@ typedef enum quantity_each {
     EACH_LINE,
     EACH_GUIDE_WIND,
     EACH_GUIDE_JET,
+    EACH_DESCENT,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,
     EACH_SHOE,  // an adaptor on a guide's surfaces
@@ -34,6 +35,7 @@ typedef enum quantity_each {
     EACH_MEASURE, // that the scenario asks for
     EACH_SLIDE,   // support on which the tube recoils, by its number among them
     EACH_PARACHUTE,
+    EACH_CANOPY,     // of a parachute, with a mass of its own
     EACH_LINE_PLACE, // at equal parts of the length that is out, the first at the container
     EACH_STATION,    // of the tube, at which loads are asked for
     EACH_SUPPORT,    // of the tube, where loads are asked for

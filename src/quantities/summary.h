@@ -40,6 +40,11 @@ typedef struct ld_parachute_summary {
     double t_open;   ///< [s] from ignition
     double height;   ///< [m] of the mass centre above the ground (without one, its height)
     double airspeed; ///< [m/s]
+    // of a canopy with a mass of its own
+    double t_taut;           ///< [s] its lines are taut for the first time
+    double snatch;           ///< [N] first maximum of their force
+    double greatest_force;   ///< [N]
+    double t_greatest_force; ///< [s]
 } ld_parachute_summary;
 
 /// What became of a line that the rocket pulled.

@@ -194,6 +194,12 @@ static const quantity parachutes[] = {
     {"parachute.%s.height", "m", "parachute %s: height of the mass centre above the ground then", OPENED(height), KEPT, LINE("%s, height", "m", 1, 3)},
     {"parachute.%s.airspeed", "m/s", "parachute %s: speed through the air then", OPENED(airspeed), KEPT, LINE("%s, airspeed", "m/s", 1, 3)},
 };
+static const quantity canopies[] = {
+    {"parachute.%s.t_taut", "s", "parachute %s: its lines are taut for the first time", OPENED(t_taut), KEPT},
+    {"parachute.%s.snatch", "N", "parachute %s: first maximum of the force of its lines", OPENED(snatch), KEPT, LINE("%s, snatch, largest force", "N", 1, 1)},
+    {"parachute.%s.greatest_force", "N", "parachute %s: largest force of its lines", OPENED(greatest_force), KEPT, BESIDE(1)},
+    {"parachute.%s.t_greatest_force", "s", "parachute %s: when that was", OPENED(t_greatest_force), KEPT},
+};
 static const quantity line_pulled[] = {
     {"line.greatest_tension", "N", "largest pull of the line on the rocket in flight", ROCKET(line.greatest_tension), KEPT, LINE("line, greatest tension", "N", 1, 2)},
     {"line.t_greatest_tension", "s", "when that was", ROCKET(line.t_greatest_tension), KEPT},
@@ -277,6 +283,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
     {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
+    {.title = "of each canopy", .each = EACH_CANOPY, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(canopies)},
     {.title = "line that the rocket pulls", .each = EACH_LINE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(line_pulled)},
     {.title = "places of the line", .each = EACH_LINE_PLACE, .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(line_places)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
@@ -427,6 +434,7 @@ void rocket_clear(ld_rocket_summary *rocket, bool launched)
                                          [EACH_SLIDE] = LD_MAX_SUPPORTS,
                                          [EACH_HINGE] = HINGES,
                                          [EACH_PARACHUTE] = LD_MAX_PARACHUTES,
+                                         [EACH_CANOPY] = LD_MAX_PARACHUTES,
                                          [EACH_LINE] = 1,
                                          [EACH_LINE_PLACE] = LD_LINE_PLACES,
                                          [EACH_DRIVE] = LD_MAX_DRIVES,

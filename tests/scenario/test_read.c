@@ -304,6 +304,26 @@ static void test_parachutes(void **state)
     assert_true(drogue->drag_area == 0.6 && chief->drag_area == 7);
     assert_true(drogue->lag == 1 && chief->lag == 0.2);
     assert_true(drogue->filling == 0.3 && chief->filling == 1.2);
+    assert_false(drogue->canopy.present || chief->canopy.present);
+    model_clear(&m);
+}
+
+static void test_canopy(void **state)
+{
+    (void)state;
+    const char *const sets[] = {
+        "rocket.parachutes={main: {canopy: {mass: 600 g, line_length: 7 m, line_stiffness: 20 kN, "
+        "at: 1 0 0.1 m, ejection: 8 0 0 m/s, packed_area: 300 cm2}}, drogue: {canopy: {mass: 100 "
+        "g, line_length: 3 m, line_stiffness: 9 kN, damping: 0.2, ejection: 8 0 0 m/s, "
+        "air_volume: 0.5 m3, strength: 2 kN}}}"};
+    ld_model m = read_model("examples/parachutes.yaml", sets, 1);
+    const ld_canopy *drogue = &m.rocket.parachute[0].canopy, *chief = &m.rocket.parachute[1].canopy;
+    assert_true(drogue->present && chief->present);
+    assert_true(drogue->mass == 0.1 && chief->mass == 0.6 && drogue->strength == 2000);
+    assert_true(drogue->line_length == 3 && chief->line_stiffness == 2e4);
+    assert_true(drogue->damping == 0.2 && chief->damping == 0.1 && isnan(chief->strength));
+    assert_true(chief->at[0] == 1 && chief->at[2] == 0.1 && drogue->ejection[0] == 8);
+    assert_true(fabs(chief->packed_area - 0.03) < 1e-17 && drogue->air_volume == 0.5);
     model_clear(&m);
 }
 
@@ -602,6 +622,7 @@ int main(void)
         cmocka_unit_test(test_overrides),
         cmocka_unit_test(test_override_order),
         cmocka_unit_test(test_parachutes),
+        cmocka_unit_test(test_canopy),
         cmocka_unit_test(test_engine_file),
         cmocka_unit_test(test_engine_from_zero),
         cmocka_unit_test(test_motion_file),

@@ -92,6 +92,8 @@ static const char *const options[][MOST_SETTINGS] = {
     {"rocket.parachutes=[{name: low, drag_area: 3 m2, trigger: height, height: 400 m}, {name: top, "
      "drag_area: 0.2 m2, trigger: apogee}]",
      "rocket.eccentricity=0.3 -0.2 mm", "environment.earth=round"},
+    {"rocket.parachutes=[{name: main, drag_area: 8 m2, trigger: apogee, filling: 0.5 s, canopy: "
+     "{mass: 1 kg, line_length: 6 m, line_stiffness: 20 kN, at: 1.5 0 0 m, ejection: 8 0 0 m/s}}]"},
     {MASSES},
     {MASSES, "rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
     {MASSES, SURFACES "]}",

@@ -171,21 +171,25 @@ static ld_status find_stop(const ld_model *model, const ld_simulation *whole, do
 ld_status fmu_part_variables(ld_fmu_part which, const ld_model *model, fmu_part *part,
                              fmu_variables *variables, ld_error *error)
 {
-    ld_model of_part = *model; // shares what the model holds
+    ld_model *of_part = malloc(sizeof *of_part);
     ld_simulation *whole = NULL, *alone = NULL;
     *variables = (fmu_variables){0};
+    if (!of_part)
+        return ld_fail(error, LD_ERR_MEMORY, "no memory");
+    *of_part = *model; // shares what the model holds
     ld_status status = ld_simulation_create(model, &whole, error);
     if (!status)
         status = fmu_part_find(which, whole, part, error);
-    fmu_part_take(which, &of_part);
+    fmu_part_take(which, of_part);
     if (!status && which == LD_FMU_LAUNCHER)
-        status = ld_simulation_create(&of_part, &alone, error);
+        status = ld_simulation_create(of_part, &alone, error);
     if (!status)
-        status = fmu_variables_make(part, &of_part, alone ? alone : whole, variables, error);
+        status = fmu_variables_make(part, of_part, alone ? alone : whole, variables, error);
     if (!status)
         status = find_stop(model, whole, &variables->stop, error);
     ld_simulation_free(alone);
     ld_simulation_free(whole);
+    free(of_part);
     return status;
 }
 

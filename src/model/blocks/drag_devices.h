@@ -9,6 +9,20 @@
 
 typedef enum ld_trigger { LD_TRIGGER_APOGEE, LD_TRIGGER_TIME, LD_TRIGGER_HEIGHT } ld_trigger;
 
+/// The canopy of a parachute as a body of its own, on lines: model.md, section 8.
+typedef struct ld_canopy {
+    bool present;
+    double mass;           ///< [kg] of the rocket's until it opens
+    double line_length;    ///< [m] unstretched, from the rocket to the canopy
+    double line_stiffness; ///< [N] EA of all lines: tension over strain
+    double damping;        ///< [-] of canopy against rocket, of the critical one
+    double at[3];          ///< [m] where the lines are attached, in B
+    double ejection[3];    ///< [m/s] against that point, in B
+    double packed_area;    ///< [m2] C_D S until the lines are taut
+    double air_volume;     ///< [m3] of air that moves with it when full
+    double strength;       ///< [N] of the lines; NaN: not checked
+} ld_canopy;
+
 /// A parachute, which takes the place of the one before it: model.md, section 8.
 typedef struct ld_parachute {
     char name[LD_MAX_NAME];
@@ -18,6 +32,7 @@ typedef struct ld_parachute {
     double height;  ///< [m] above the ground, falling
     double lag;     ///< [s] from the trigger until it opens
     double filling; ///< [s] in which the drag area grows, linearly
+    ld_canopy canopy;
 } ld_parachute;
 
 typedef enum ld_brakes_form { LD_BRAKES_OVER_TIME, LD_BRAKES_OVER_HEIGHT } ld_brakes_form;

@@ -1333,6 +1333,28 @@ static const field_word trigger_words[] = {{"apogee", LD_TRIGGER_APOGEE},
                                            {"time", LD_TRIGGER_TIME},
                                            {"height", LD_TRIGGER_HEIGHT},
                                            {NULL, 0}};
+static const field_word canopy_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row canopy_fields[] = {
+    {"mass", NUMBER(ld_canopy, mass, "kg"), POSITIVE, REQUIRED,
+     .doc = "of the canopy, part of the rocket's mass (at `at`) until it opens"},
+    {"line_length", NUMBER(ld_canopy, line_length, "m"), ABOVE_TO(0, 1000), REQUIRED,
+     .doc = "from the rocket to the canopy, unstretched"},
+    {"line_stiffness", NUMBER(ld_canopy, line_stiffness, "N"), ABOVE_TO(0, 1e9), REQUIRED,
+     .doc = "EA of all lines together: tension over strain"},
+    {"damping", NUMBER(ld_canopy, damping, ""), FROM_TO(0, 1), DEFAULT(0.1),
+     .doc = "of the canopy's motion against the rocket, of the critical one"},
+    {"at", VECTOR(ld_canopy, at, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "point of the rocket to which the lines are attached, in B"},
+    {"ejection", VECTOR(ld_canopy, ejection, "m/s", 3), FROM_TO(-1000, 1000), DEFAULT(0),
+     .doc = "velocity against that point with which it leaves, in B"},
+    {"packed_area", NUMBER(ld_canopy, packed_area, "m2"), FROM_TO(0, 1e5), DEFAULT(0),
+     .doc = "drag area until the lines are taut; from then on it fills"},
+    {"air_volume", NUMBER(ld_canopy, air_volume, "m3"), FROM_TO(0, 1e7), DEFAULT(0),
+     .doc = "of air that moves with the full canopy: added mass over density"},
+    {"strength", NUMBER(ld_canopy, strength, "N"), POSITIVE, NO_DEFAULT("not checked"),
+     .doc = "of the lines: a greater force gives a warning"},
+    {0}};
+static const field_block canopy_block = {.fields = canopy_fields};
 static const field_row parachute_fields[] = {
     {"name", WORD(ld_parachute, name), .required = true, .doc = "name in results and paths"},
     {"drag_area", NUMBER(ld_parachute, drag_area, "m2"), ABOVE_TO(0, 1e5), REQUIRED,
@@ -1347,6 +1369,9 @@ static const field_row parachute_fields[] = {
      .doc = "from the trigger to the opening"},
     {"filling", NUMBER(ld_parachute, filling, "s"), FROM_TO(0, 100), DEFAULT(0),
      .doc = "duration of the linear change from the previous drag area"},
+    {"canopy", BLOCK(ld_parachute, canopy, canopy_block), .initial_doc = "none",
+     SWITCH(ld_parachute, canopy.present, canopy_words), .other_is_bool = true,
+     .doc = "a body of its own on lines, below which the rocket swings"},
     {0}};
 static const field_block parachute_block = {.fields = parachute_fields,
                                             .form = trigger_words,

@@ -709,6 +709,40 @@ static void brakes_rules(const rule_set *rules)
     rising_rule(rules, "rocket.air_brakes.over_height.#", &brakes->over_height, "m", false);
 }
 
+// The rocket without the canopy, which is a point of it until it opens.
+static void canopy_rules(const rule_set *rules, int i)
+{
+    const ld_rocket *rocket = &rules->model->rocket;
+    const ld_canopy *one = &rocket->parachute[i].canopy;
+    double mass = rocket->empty.mass, rest = mass - one->mass, d[3];
+    if (one->present != rocket->parachute[0].canopy.present)
+        report_broken(rules, "rocket.parachutes.#.canopy", i + 1,
+                      "parachute %s has %s; give one to all parachutes of a rocket, or to none",
+                      rocket->parachute[0].name, one->present ? "none" : "one");
+    if (!one->present)
+        return;
+    for (int k = 0; k < 3; k++)
+        d[k] = one->at[k] - rocket->empty.center[k];
+    if (!(rest > 0)) {
+        report_broken(rules, "rocket.parachutes.#.canopy.mass", i + 1,
+                      "%g kg is not below the rocket's empty mass of %g kg", one->mass, mass);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        double y = d[(k + 1) % 3], z = d[(k + 2) % 3];
+        double taken = one->mass * mass / rest * (y * y + z * z);
+        if (taken >= rocket->empty.inertia[k])
+            report_broken(rules, "rocket.parachutes.#.canopy.at", i + 1,
+                          "the canopy there has %g kg.m2 about the axis %c through the mass "
+                          "centre, the whole rocket %g kg.m2",
+                          taken, "xyz"[k], rocket -> empty.inertia[k]);
+    }
+    if (one->packed_area == 0 && one->ejection[0] == 0 && one->ejection[1] == 0 &&
+        one->ejection[2] == 0)
+        report_broken(rules, "rocket.parachutes.#.canopy", i + 1,
+                      "nothing takes it away from the rocket; give ejection or packed_area");
+}
+
 static void parachute_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -718,6 +752,7 @@ static void parachute_rules(const rule_set *rules)
                       "without an atmosphere parachutes have no drag");
     for (int i = 0; i < rocket->parachute_count; i++) {
         const ld_parachute *one = &rocket->parachute[i];
+        canopy_rules(rules, i);
         if (one->trigger == LD_TRIGGER_HEIGHT && model->environment.ground == LD_GROUND_NONE)
             report_broken(rules, "rocket.parachutes.#.trigger", i + 1,
                           "without ground there is no height above it");

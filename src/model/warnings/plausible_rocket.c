@@ -63,6 +63,15 @@ static plausible_pair speed_of_descent(const plausible_entry *at)
     return plausible_alone(sqrt(2 * rocket->empty.mass * 9.81 / (1.2 * area)));
 }
 
+// Angular frequency of the canopy on its lines, the rocket held.
+static plausible_pair swiftness_of_lines(const plausible_entry *at)
+{
+    const ld_canopy *one = &at->model->rocket.parachute[at->i].canopy;
+    if (!one->present)
+        return plausible_nothing();
+    return plausible_alone(sqrt(one->line_stiffness / one->line_length / one->mass));
+}
+
 // ---- aerodynamics
 
 enum { CA_POWER_OFF = 1, CN_ALPHA = 3, X_CP = 4 }; // columns
@@ -220,6 +229,11 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "under a parachute the thrust is ignored"},
     {"rocket.parachutes.#.filling", .unit = "s", NO_LOW, .high = 20,
      .why = "parachutes fill in some tenths of a second to a few seconds"},
+    {"rocket.parachutes.#.canopy.mass", .unit = "kg", .other = "rocket.mass", NO_LOW, .high = 0.3,
+     .why = "canopies have some hundredths of the rocket's mass"},
+    {"rocket.parachutes.#.canopy.line_stiffness", "the frequency of the canopy on its lines",
+     .unit = "rad/s", .low = 3, .high = 2000, .find = swiftness_of_lines,
+     .why = "lines of textile stretch by some percent; stiffer ones take short steps"},
     {"rocket.line.mass_per_length", "the mass of the whole line", .unit = "kg",
      .other = "rocket.mass", NO_LOW, .high = 2, .form = PLAUSIBLE_PRODUCT,
      .a = "rocket.line.mass_per_length", .b = "rocket.line.length",

@@ -20,6 +20,17 @@ static bool is_symmetric_mass(const rocket_mass *mass)
            J[1][2] == 0;
 }
 
+// A canopy leaves the rocket's mass at the point of its lines.
+static bool has_canopies_on_axis(const ld_rocket *rocket)
+{
+    bool on_axis = true;
+    for (int i = 0; i < rocket->parachute_count; i++) {
+        const ld_canopy *one = &rocket->parachute[i].canopy;
+        on_axis &= !one->present || (one->at[1] == 0 && one->at[2] == 0);
+    }
+    return on_axis;
+}
+
 // What goes evenly with the burnt share, from one to the other.
 static void set_masses(const rocket_mass *from, const rocket_mass *to, double burnt,
                        flight_numbers *number)
@@ -93,6 +104,8 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
                             .thrust_point = v3_from(thrust->at),
                             .jet_damping = thrust->jet_damping == LD_JET_DAMPING_YES,
                             .parachutes = flying->parachute_count > 0,
+                            .canopies =
+                                flying->parachute_count > 0 && flying->parachute[0].canopy.present,
                             .ground = environment->ground_height,
                             .has_ground = environment->ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
@@ -117,7 +130,8 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
     self->symmetric = is_symmetric_mass(&self->motor.full) &&
                       is_symmetric_mass(&self->motor.empty) && direction.y == 0 &&
                       direction.z == 0 && self->thrust_point.y == 0 && self->thrust_point.z == 0 &&
-                      !self->motor.across && self->aerodynamics.axisymmetric;
+                      !self->motor.across && self->aerodynamics.axisymmetric &&
+                      has_canopies_on_axis(flying);
     self->feels_shear = self->aerodynamics.present &&
                         self->aerodynamics.model == LD_AERODYNAMICS_SURFACES &&
                         self->wind.present && self->wind.has_profile;
@@ -156,7 +170,16 @@ static void set_piece_of_masses(const motor *thrust, flight_phase *phase)
     phase->number.burn.share = 0;
 }
 
-void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
+// Below a canopy nothing burns.
+static void set_mass_below(flight_phase *phase)
+{
+    const rocket_mass *rocket = &phase->canopy.rocket;
+    set_masses(rocket, rocket, 0, &phase->number);
+    phase->number.burn.thrust = phase->number.burn.slope = 0;
+    phase->number.burn.share = phase->number.burn.rate = phase->number.burn.power = 0;
+}
+
+static void set_piece(const flight_system *self, flight_phase *phase, int piece)
 {
     const motor *thrust = &self->motor;
     int corners = (int)thrust->corner_count;
@@ -181,13 +204,20 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
         phase->number.burn.share = thrust->impulse[piece] * phase->number.burn.rate;
 }
 
+void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
+{
+    set_piece(self, phase, piece);
+    if (phase->canopy.given)
+        set_mass_below(phase);
+}
+
 void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
                  double slope)
 {
     phase->area = slope == 0 ? area : flight_drag_area(phase, t);
     phase->slope = slope;
     phase->hangs_since = t;
-    phase->hangs = true;
+    phase->hangs = !phase->canopy.given;
     flight_set_piece(self, phase, phase->piece);
 }
 
@@ -227,6 +257,8 @@ double flight_next_brake_row(const flight_system *self, double since)
 rocket_mass flight_mass(const flight_system *self, const flight_phase *phase, double t)
 {
     rocket_mass mass;
+    if (phase->canopy.given)
+        return phase->canopy.rocket;
     motor_mass(&self->motor, phase->piece, t - phase->t_ignition, &mass);
     return mass;
 }
@@ -240,7 +272,9 @@ double flight_stability_margin(const flight_system *self, const flight_phase *ph
 
 double flight_thrust(const flight_system *self, const flight_phase *phase, double t)
 {
-    return phase->hangs ? 0 : motor_thrust(&self->motor, phase->piece, t - phase->t_ignition);
+    if (phase->hangs || phase->canopy.given)
+        return 0;
+    return motor_thrust(&self->motor, phase->piece, t - phase->t_ignition);
 }
 
 // ---- the air
@@ -365,7 +399,7 @@ double flight_height_rate(const flight_system *self, const flight_phase *phase, 
                           const double *state)
 {
     v3 up, v = v3_from(state + FLIGHT_V);
-    if (phase->burning && !phase->hangs) {
+    if (phase->burning && !phase->hangs && !phase->canopy.given) {
         v3 c_dot = m3_apply(m3_rotation_x(state[FLIGHT_ROLL]), flight_mass(self, phase, t).c_dot);
         v = v3_add(v, m3_apply(q_matrix(q_from(state + FLIGHT_Q)), c_dot));
     }

@@ -15,6 +15,7 @@
 // Air brakes of drag area A add -1/2 rho A |v_a| v_a.x along x of B, v_a the velocity through the
 // air. Below a parachute the rocket is a point of its mass: with v_a its velocity through the air
 // and A the drag area, v_dot = g - rho A |v_a| v_a/(2 m), r_dot = v; the attitude stays as it was.
+// Below a canopy with a mass of its own it stays a rigid body (canopy.h).
 // In turbulence two more states: xi_dot = V_m/L_u and V_m/L_w, V_m the speed through the air
 // without it.
 #ifndef LD_SYSTEMS_FLIGHT_H
@@ -31,6 +32,7 @@
 #include "math/vectors/quaternion.h"
 
 struct flight_line;
+struct ld_canopy;
 struct ld_flight;
 struct ld_rocket;
 struct line_bridle;
@@ -96,6 +98,7 @@ typedef struct flight_system {
     v3 thrust_direction; // unit vector, in B
     bool jet_damping;
     bool parachutes;  // there are some
+    bool canopies;    // with a mass of their own
     bool feels_air;   // of aerodynamics, brakes or parachutes, or its guide does
     bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
     bool feels_shear; // surfaces in a wind that changes with height
@@ -118,13 +121,23 @@ typedef struct flight_tables {
 } flight_tables;
 enum { FLIGHT_TABLES = sizeof(flight_tables) / sizeof(double) };
 
+// The canopy with a mass of its own below which the rocket flies (canopy.h).
+typedef struct flight_canopy {
+    const struct ld_canopy *given; // NULL: none
+    double full;                   // [m2] its drag area then
+    double stiffness, damping;     // [N/m], [N.s/m]
+    bool taut;                     // its lines
+    rocket_mass rocket;            // without it
+} flight_canopy;
+
 // What is switched between steps.
 typedef struct flight_phase {
     double t_ignition; // [s]
     int piece;         // of the thrust curve
     bool burning;
-    bool hangs;                      // below a parachute
+    bool hangs;                      // below a parachute, as a point
     double hangs_since, area, slope; // its drag area [m2] then [s], [m2/s] while it fills
+    flight_canopy canopy;
     double lowest_trigger; // [m] height at or below which a parachute's trigger waits; else -inf
     int changes;           // of the numbers, so far
     const struct flight_line *line; // that the rocket pulls (line.h); NULL: none
@@ -135,8 +148,8 @@ typedef struct flight_phase {
 // Begins a piece of the thrust curve (elements/motor.h).
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece);
 
-// The drag area of the parachute that the rocket hangs below goes linearly from what it is at t to
-// `area` [m2] with the slope given [m2/s], or there at once where that is 0.
+// The drag area of the parachute that the rocket hangs below, or of its canopy, goes linearly from
+// what it is at t to `area` [m2] with the slope given [m2/s], or there at once where that is 0.
 void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
                  double slope);
 // Its value at t; 0 where the rocket flies on its own.

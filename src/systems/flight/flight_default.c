@@ -3,6 +3,7 @@
 #include "math/functions.h"
 #include "math/vectors/mat3.h"
 #include "model/blocks/rocket.h"
+#include "systems/flight/canopy.h"
 #include "systems/flight/flight_code.h"
 #include "systems/flight/line.h"
 
@@ -46,6 +47,8 @@ void flight_rates(const flight_system *self, flight_phase *phase, double t, cons
     flight_rates_of(&one, &t, state, state_dot);
     if (phase->line)
         pull(self, phase, t, state, state_dot);
+    if (phase->canopy.given)
+        canopy_rates(self, phase, t, state, state_dot);
 }
 
 unsigned flight_watch(const flight_system *self, flight_phase *phase, const flight_step *step)
