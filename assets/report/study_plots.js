@@ -179,7 +179,7 @@ function contoursOf(own, f) {
 export const isNormal = ({ normality }) => Boolean(normality) && (!normality.tested || normality.normal === 1);
 
 // Whether a pair is of where lines lie: its points are places, twelve of each.
-export const isLine = ({ x }) => x === "line.x";
+export const isLine = ({ x }) => x === "line x";
 
 // What the clouds are, as a line below their plot.
 function formOf(list, line) {

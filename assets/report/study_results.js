@@ -15,7 +15,6 @@ const MORE = [
   ["downrange", "downrange", "m", 1],
   ["t_impact", "landing, from ignition", "s", 1],
   ["t_max_acceleration", "largest acceleration, from ignition", "s", 1],
-  ["line.x", "the line, x", "m", 1], ["line.z", "the line, z", "m", 1],
   ["t_max_dynamic_pressure", "largest dynamic pressure, from ignition", "s", 1],
   ["measure.*", "%s", null, 1],
 ];

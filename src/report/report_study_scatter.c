@@ -190,7 +190,7 @@ static ld_status write_scatter(FILE *json, const study_values *values, const sca
 static ld_status write_pair(FILE *json, study_source *source, const study_pair *pair,
                             const scatter_choice *choice)
 {
-    static const study_pair line = {"Where the line lies", {"line.x", "line.z"}, "m"};
+    static const study_pair line = {"Where the line lies", {"line x", "line z"}, "m"};
     const study_pair *of = pair ? pair : &line;
     ld_status status = LD_OK;
     fprintf(json, "\n{\"title\":\"%s\",\"x\":\"%s\",\"y\":\"%s\",\"unit\":\"%s\"", of->title,

@@ -11,7 +11,7 @@ enum {
     LD_MAX_STATIONS = 16,
     LD_MAX_WIND_DRAGS = 16, ///< lengths of the guide in the wind
     LD_MAX_ADAPTORS = 8,
-    LD_MAX_PARACHUTES = 5,
+    LD_MAX_PARACHUTES = 8,
     LD_LINE_PLACES = 12, ///< places of a line in results
     LD_MAX_SURFACES = 12,
     LD_MAX_AIR_SURFACES = 8, ///< nose, body, tail, fins
