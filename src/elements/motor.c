@@ -123,14 +123,13 @@ static void find_corners(motor *self, const ld_motor *given)
 // Column `column` of a table over time: linear, constant outside; 0 without rows.
 static double column_at(const ld_table *table, int column, double t)
 {
-    const double *row = table->data + column;
     size_t width = table->columns, k = 0;
     if (table->rows == 0)
         return 0;
     while (k < table->rows && table->data[k * width] <= t)
         k++;
     if (k == 0 || k == table->rows)
-        return row[(k ? k - 1 : 0) * width];
+        return table->data[(k ? k - 1 : 0) * width + (size_t)column];
     const double *a = table->data + (k - 1) * width, *b = a + width;
     return a[column] + (b[column] - a[column]) * (t - a[0]) / (b[0] - a[0]);
 }

@@ -13,10 +13,19 @@
 enum { TUBES = 25, POSES = 4, MOST = 2 * LD_MAX_STATES };
 static const double TWO_PI = 6.283185307179586476925286766559;
 
+// A random launcher without wind on the guide, which damps; its adaptors leave at the tip.
+static void draw_launcher(uint64_t seed, ld_model *model)
+{
+    draw_random_model(seed, model);
+    model->tubes.wind_drag_count = 0;
+    for (int i = 0; i < model->rocket.adaptor_count; i++)
+        model->rocket.adaptor[i].leaves_at = NAN;
+}
+
 // A tube of the same stiffness in both planes, its dampers as they fall or the same.
 static void draw_round_tube(uint64_t *seed, ld_model *model)
 {
-    draw_random_model(*seed, model);
+    draw_launcher(*seed, model);
     model->base = (ld_base){.kind = LD_BASE_FIXED};
     ld_tubes *tubes = &model->tubes;
     tubes->guide.present = tubes->initial_shape.present = false;
@@ -308,7 +317,7 @@ static void no_passive_launcher_is_damped_negatively(void **state)
     for (uint64_t seed = 1; seed <= TUBES; seed++) {
         ld_model model;
         int unused, count;
-        draw_random_model(seed, &model);
+        draw_launcher(seed, &model);
         model.tubes.guide.present = false;
         model.rocket.start_at = 0.1;
         count = system_modes(&model, modes, poles, &unused);

@@ -1,5 +1,7 @@
 // The jet of a rocket that has left on the front end of its guide, against the closed form of two
 // bodies: the impulse over the exit by its work, of a rocket that burns on, or out on the way.
+#include <stdlib.h>
+
 #include "elements/exchange.h"
 #include "model/model.h"
 #include "support/check.h"
@@ -29,6 +31,7 @@ static void free_tube(ld_model *model, double thrust, double burns)
     rocket->propellant = 0;
     rocket->empty = rocket->full;
     double rows[8] = {0, thrust, burns, thrust, burns + 1e-9, 0, 9, 0};
+    free(rocket->motor.thrust.data);
     rocket->motor.thrust = reference_table(4, 2, rows);
     model->tubes.jet = reference_table(2, 2, (double[]){0, full, reach, 0});
     model->tubes.jet_scale = scale;
