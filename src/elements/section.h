@@ -145,6 +145,20 @@ LD_INLINE void section_rates_load(const element_motion *motion, const axis_secti
     }
 }
 
+// A point of the tube's own axis, without an initial shape; its velocity, in R.
+LD_OUTLINE v3 axis_point_load(const tube_system *self, const tube_state *tube, double x,
+                              axis_section *at)
+{
+    element_motion motion;
+    section_rates rates;
+    at->index = flexible_tube_find(&self->flexible, x);
+    element_load(self, &tube->modal, at->index, &motion);
+    motion.initial = NULL;
+    section_load(self, &motion, x, at);
+    section_rates_load(&motion, at, &rates);
+    return v3_add(v3_add(tube->v, v3_cross(tube->w, at->P)), rates.u_dot);
+}
+
 // e_x . A_RP(x)^T (C - P(x)): how far C lies in front of the section at x.
 LD_INLINE double section_gap(const tube_system *self, const element_motion *motion, double x, v3 C)
 {

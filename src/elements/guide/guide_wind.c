@@ -47,15 +47,8 @@ static void blow_at(double x, double half_width, const tube_system *guide,
 {
     const tube_state *tube = &now->tube;
     const air_about *about = &now->input->about;
-    element_motion motion;
-    section_rates rates;
     axis_section *at = &to->at;
-    at->index = flexible_tube_find(&guide->flexible, x);
-    element_load(guide, &tube->modal, at->index, &motion);
-    motion.initial = NULL;
-    section_load(guide, &motion, x, at);
-    section_rates_load(&motion, at, &rates);
-    to->v = v3_add(v3_add(tube->v, v3_cross(tube->w, at->P)), rates.u_dot);
+    to->v = axis_point_load(guide, tube, x, at);
     v3 place = v3_add(tube->r, m3_apply(tube->A_IR, at->P));
     moving_air air = about->at(about->self, about->t, place);
     v3 flow = v3_add(air.v, about->turbulence);

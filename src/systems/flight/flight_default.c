@@ -101,13 +101,10 @@ moving_air flight_air_at(const flight_system *self, double t, v3 r, double left)
 
 moving_air flight_air_about(const flight_system *self, double t, v3 r)
 {
-    v3 v = v3_zero(), place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
-    double altitude = earth_altitude(&self->earth, place);
-    if (self->wind.present)
-        v = wind_here(self, t, place, altitude);
-    air here = atmosphere_at(&self->atmosphere, altitude);
-    return (moving_air){m3_apply_transposed(ground_axes(self, t), v), here.density,
-                        here.speed_of_sound};
+    v3 place = earth_from_ground(&self->earth, t, r, v3_zero()).r;
+    moving_air here = flight_steady_air_at(self, t, place);
+    here.v = m3_apply_transposed(ground_axes(self, t), here.v);
+    return here;
 }
 
 v3 flight_turbulence_past(const flight_system *self, double t, v3 r)
