@@ -1,6 +1,7 @@
 // Takes the pictures of docs/figures that show reports again, in some minutes:
 //   LD_SCREENSHOTS=docs/figures tests/report/browser pictures.mjs BUILD
-import { writeFileSync } from "node:fs";
+// LD_PICTURES="studies footprints": only those functions' pictures.
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { drawn, example, folder, inBrowser, launchdyn, open, picture, runOf } from "./support.mjs";
 
@@ -68,6 +69,21 @@ scatter:
   await take(browser, "report-measured.png", measured, { width: 1280, height: 1100, top: "#measured" });
 }
 
+// Footprints of 10 000 landings and of the line of 400 throws of docs/tutorial-ship.md: the panel that has the title.
+async function footprints(browser) {
+  const safety = studyOf("safety", example("range-safety.yaml"), "scatter.samples=10000");
+  const scenario = readFileSync(example("../docs/tutorial-ship.md"), "utf8").match(/```yaml thrower.yaml\n(.*?)```/s)[1];
+  writeFileSync(join(folder, "thrower.yaml"), scenario.replace("examples/line-thrower.yaml", example("line-thrower.yaml")));
+  const thrower = studyOf("thrower", join(folder, "thrower.yaml"), "scatter.samples=400");
+  for (const [name, out, title, width] of [["footprint.png", safety, "Landing points", 1400],
+    ["line-footprint.png", thrower, "Where the line lies", 960]]) {
+    const page = await open(browser, reportOf(`${name}.html`, out), { width });
+    await drawn(page);
+    await page.locator(`.panel[data-title="${title}"]`).screenshot({ path: join(process.env.LD_SCREENSHOTS, name) });
+    await page.context().close();
+  }
+}
+
 // A launcher of one's own each, 0.1 s after ignition.
 async function launchers(browser) {
   for (const name of ["erector", "suspended", "trailer", "mast", "gondola", "sled", "ship-turntable"]) {
@@ -79,9 +95,8 @@ async function launchers(browser) {
   }
 }
 
+const all = { launchers, oneRun, severalRuns, studies, footprints };
+const chosen = process.env.LD_PICTURES?.split(" ") ?? Object.keys(all);
 await inBrowser(async (browser) => {
-  await launchers(browser);
-  await oneRun(browser);
-  await severalRuns(browser);
-  await studies(browser);
+  for (const name of chosen) await all[name](browser);
 });
