@@ -1,5 +1,4 @@
 // A model as a scenario in SI units: every key, in the order of the tables.
-#include <stdlib.h>
 
 #include "base/memory_stream.h"
 #include "base/numeric_locale.h"
@@ -504,29 +503,31 @@ static void keep_whole(double to[3], const double from[3])
         to[i] = given ? from[i] : NAN;
 }
 
-// A copy without the numbers that follow from others, where samples or points change those; to be
-// freed alone. NULL: there is nothing to leave out, or no memory.
-static ld_model *without_completed(const ld_model *model)
+// Samples or points change numbers that others follow from.
+static bool changes(const ld_model *model)
 {
     bool sweeps = model->sweep_count > 0 && model->point == 0;
-    bool changes = model->scatter.factor_count > 0 || sweeps;
-    ld_model *copy = changes ? malloc(sizeof *copy) : NULL;
-    if (!copy)
-        return NULL;
-    *copy = *model;
-    model_forget(copy);
-    keep_whole(copy->rocket.empty.center, model->rocket.empty.center);
-    keep_whole(copy->rocket.empty.inertia, model->rocket.empty.inertia);
-    return copy;
+    return model->scatter.factor_count > 0 || sweeps;
+}
+
+// Without the numbers that follow from others. The copy is on the stack, where no memory is short.
+static void print_given(text_writer *to, const ld_model *model)
+{
+    ld_model copy = *model;
+    model_forget(&copy);
+    keep_whole(copy.rocket.empty.center, model->rocket.empty.center);
+    keep_whole(copy.rocket.empty.inertia, model->rocket.empty.inertia);
+    print_block(to, &scenario_block, &copy, 0);
 }
 
 void ld_model_print(const ld_model *model, FILE *stream)
 {
     text_writer to = {.stream = stream};
     locale_t before = numeric_locale_enter();
-    ld_model *copy = without_completed(model);
-    print_block(&to, &scenario_block, copy ? copy : model, 0);
-    free(copy);
+    if (changes(model))
+        print_given(&to, model);
+    else
+        print_block(&to, &scenario_block, model, 0);
     numeric_locale_leave(before);
 }
 
