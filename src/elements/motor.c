@@ -292,3 +292,41 @@ void motor_mass(const motor *self, int piece, double t, rocket_mass *mass)
     mass->J = m3_add(self->full.J, m3_scale(share, J_change));
     mass->J_dot = m3_scale(share_dot, J_change);
 }
+
+// With r from the mass centre c to the part's (mass p, inertia I), m' = m - p and f = m p/m':
+//   c' = c - p/m' r,   J' = J - I - f (r^2 E - r r^T);   rates with r' = -c', p, I constant.
+void rocket_mass_without(const ld_rocket *rocket, int i, rocket_mass *mass)
+{
+    const ld_falling *part = &rocket->adaptor[i].falls_off;
+    if (!part->present)
+        return;
+    v3 at = {rocket->adaptor[i].at, part->center[0], part->center[1]};
+    double m = mass->m, p = part->mass, rest = m - p;
+    v3 r = v3_sub(at, mass->c), r_dot = v3_neg(mass->c_dot);
+    double f = m * p / rest, f_dot = -p * p * mass->m_dot / (rest * rest);
+    m3 across = m3_skew(r), turning = m3_skew(r_dot); // r^2 E - r r^T = -~r ~r
+    m3 square = m3_scale(-1, m3_mul(across, across));
+    m3 square_dot = m3_scale(-1, m3_add(m3_mul(turning, across), m3_mul(across, turning)));
+    m3 own = m3_diagonal(part->inertia[0], part->inertia[1], part->inertia[2]);
+    mass->J = m3_sub(m3_sub(mass->J, own), m3_scale(f, square));
+    mass->J_dot = m3_sub(mass->J_dot, m3_add(m3_scale(f_dot, square), m3_scale(f, square_dot)));
+    mass->c = v3_axpy(mass->c, -p / rest, r);
+    // c' = c - p/m' r
+    mass->c_dot =
+        v3_axpy(v3_axpy(mass->c_dot, -p / rest, r_dot), p * mass->m_dot / (rest * rest), r);
+    mass->m = rest;
+}
+
+static void drop_all(const ld_rocket *rocket, rocket_mass *mass)
+{
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        rocket_mass_without(rocket, i, mass);
+}
+
+void motor_without_falling(motor *self, const ld_rocket *rocket)
+{
+    drop_all(rocket, &self->full);
+    drop_all(rocket, &self->empty);
+    for (size_t k = 0; self->at && k < self->corner_count; k++)
+        drop_all(rocket, &self->at[k]);
+}

@@ -63,4 +63,10 @@ motor_across motor_across_at(const motor *self, int piece, double t);
 // Mass data at time t after ignition.
 void motor_mass(const motor *self, int piece, double t, rocket_mass *mass);
 
+// What falls off with adaptor i leaves the mass data at one instant: mass, first moment and inertia
+// about any point are those of both parts before it.
+void rocket_mass_without(const struct ld_rocket *rocket, int i, rocket_mass *mass);
+// The same of the masses at all corners, of all adaptors: between them they go as the motor's do.
+void motor_without_falling(motor *self, const struct ld_rocket *rocket);
+
 #endif

@@ -13,6 +13,21 @@
 #include "state/evaluation.h"
 #include "systems/launching/launching_kinematics.h"
 
+// What falls off moves on as the rocket does there, so no speed jumps; the balance continues
+// without its energy.
+static void let_part_fall(ld_run *run, int i, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    launcher_input input;
+    if (!self->rocket->adaptor[i].falls_off.present)
+        return;
+    simulation_input(self, t, y, &input);
+    double with = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
+    rocket_mass_without(self->rocket, i, &input.launching.mass);
+    double without = launcher_kinetic_energy(&self->launcher, &input, &self->phase, y);
+    run->energy_start += without - with;
+}
+
 static void let_adaptor_go(ld_run *run, int i, double t, const double *y)
 {
     launch_state *self = &run->launch;
@@ -22,6 +37,7 @@ static void let_adaptor_go(ld_run *run, int i, double t, const double *y)
     const ld_adaptor *adaptor = self->rocket->adaptor;
     for (int j = 0; j < count; j++)
         ahead += adaptor[j].at > adaptor[i].at;
+    let_part_fall(run, i, t, y);
     self->phase.passed[i] = true;
     rocket->t_exit[i] = since;
     launch_record_event(run, LD_EVENT_EXIT, t, i);

@@ -18,3 +18,25 @@ ld_mass_data masses_at(const ld_rocket *rocket, size_t row)
                           out.mass * moved * moved;
     return out;
 }
+
+double masses_left(const ld_rocket *rocket, const ld_mass_data *data, int axis, double *mass)
+{
+    double c[3], moment = data->inertia[axis];
+    *mass = data->mass;
+    for (int k = 0; k < 3; k++)
+        c[k] = data->center[k];
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        const ld_falling *part = &rocket->adaptor[i].falls_off;
+        const double at[3] = {rocket->adaptor[i].at, part->center[0], part->center[1]};
+        double m = *mass, rest = m - part->mass, off = 0;
+        if (!part->present)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            off += k == axis ? 0 : (at[k] - c[k]) * (at[k] - c[k]);
+            c[k] -= part->mass / rest * (at[k] - c[k]);
+        }
+        moment -= part->inertia[axis] + m * part->mass / rest * off;
+        *mass = rest;
+    }
+    return moment;
+}

@@ -16,4 +16,9 @@ enum { MASSES_TIME, MASSES_MASS, MASSES_CENTER, MASSES_AXIAL, MASSES_TRANSVERSE,
 // (Huygens and Steiner).
 ld_mass_data masses_at(const ld_rocket *rocket, size_t row);
 
+// Moments of inertia about y or z (axis 1 or 2), or x (0), that all that falls off leaves of `full`
+// or `empty`, without mass error, eccentricity and products [kg m2]; *mass: what is left of it
+// [kg].
+double masses_left(const ld_rocket *rocket, const ld_mass_data *data, int axis, double *mass);
+
 #endif

@@ -270,6 +270,8 @@ static void describe_rocket(FILE *stream, const ld_model *model)
         describe_clearance(stream, model, i);
         if (adaptor->leaves_at > 0)
             fprintf(stream, ", leaves at %s", METRES(adaptor->leaves_at));
+        if (adaptor->falls_off.present)
+            fprintf(stream, ", falls off: %.4g kg", adaptor->falls_off.mass);
         fputc(')', stream);
     }
     if (contact_has(rocket->contact.law, LD_CONTACT_TWO_SIDED))

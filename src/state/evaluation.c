@@ -60,6 +60,9 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     input->since = tau;
     input->pressure_piece = self->pressure_piece;
     motor_mass(self->motor, self->piece, tau, &input->mass);
+    for (int i = 0; i < self->launcher.launching.adaptors.count; i++)
+        if (__builtin_expect(self->phase.passed[i], 0))
+            rocket_mass_without(self->rocket, i, &input->mass);
     input->air = (moving_air){0};
     input->aerodynamics = NULL;
     const base_disturbance *disturbed = self->launcher.base.disturbed;

@@ -69,12 +69,13 @@ static void check_guide(const char *guide, const char *words)
                           "firing.1.tube=1",
                           "tubes.slot=none",
                           "rocket.adaptors.2.clearance=0 mm",
-                          "rocket.adaptors.1.leaves_at=2.8 m"};
+                          "rocket.adaptors.1.leaves_at=2.8 m",
+                          "rocket.adaptors.1.falls_off.mass=0.5 kg"};
     snprintf(expected, sizeof expected,
              "# base: fixed; launcher 19.8 deg up\n%s"
              "#   from 0 m: wall 2.5 mm, EI 969.1 kN.m2, GJ 745.4 kN.m2, 10.33 kg/m\n" SUPPORTS
              "# rocket: 60 kg, from 0.1 m, on shoes rear (0 m, gaps 0.3 mm wider, leaves "
-             "at 2.8 m), middle "
+             "at 2.8 m, falls off: 0.5 kg), middle "
              "(1.2 m), front (1.9 m, gaps 0.4 mm wider)\n" DRIVE,
              words);
     check_words("examples/fixed.yaml", sets, sizeof sets / sizeof *sets, expected);

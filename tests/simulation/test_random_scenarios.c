@@ -66,7 +66,7 @@ static const char *const kinds[] = {
     "m, "
     "1 mm, 2 mm, 1 deg]]",
     "rocket.adaptors=[{name: rear, at: 0 m, clearance: 0.3 mm, leaves_at: 2 m}, {name: front, at: "
-    "1.9 m, clearance: 0.4 mm, leaves_at: 2.9 m}]",
+    "1.9 m, clearance: 0.4 mm, leaves_at: 2.9 m, falls_off: {mass: 1 kg, center: 5 0 mm}}]",
     "tubes.loads=[{at: 0 m}, {at: 1.2 m}, {at: 2.9 m}]",
     "tubes={jet: [[0 m, 3 kN], [1 m, 2 kN], [4 m, 0 kN]], jet_scale: 1.2}",
     "tubes.wind_drag=[{from: 0 m, to: 1.5 m, width: 30 cm, coefficient: 1.2}, {from: 1 m, to: 2.9 "

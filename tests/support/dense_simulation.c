@@ -184,6 +184,46 @@ void dense_air_at(const ld_model *model, dense_conditions *on)
     on->sound = model->environment.atmosphere.speed_of_sound;
 }
 
+// Takes what has fallen off with the adaptors passed out of the sums about O1: mass, first moment,
+// products of inertia.
+static void drop_fallen(const ld_rocket *rocket, dense_conditions *on)
+{
+    double mass = on->mass, first[3], second[3][3], r2 = 0;
+    for (int i = 0; i < 3; i++) {
+        first[i] = mass * on->center[i];
+        r2 += on->center[i] * on->center[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            second[i][j] = (i == j ? on->inertia[i] + mass * r2 : on->products[i + j - 1]) -
+                           mass * on->center[i] * on->center[j];
+    for (int k = 0; k < rocket->adaptor_count; k++) {
+        const ld_falling *part = &rocket->adaptor[k].falls_off;
+        const double r[3] = {rocket->adaptor[k].at, part->center[0], part->center[1]};
+        if (!on->passed[k] || !part->present)
+            continue;
+        mass -= part->mass;
+        for (int i = 0; i < 3; i++) {
+            first[i] -= part->mass * r[i];
+            second[i][i] -= part->inertia[i];
+            for (int j = 0; j < 3; j++)
+                second[i][j] += part->mass * (r[i] * r[j] -
+                                              (i == j) * (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]));
+        }
+    }
+    on->mass = mass;
+    r2 = 0;
+    for (int i = 0; i < 3; i++) {
+        on->center[i] = first[i] / mass;
+        r2 += on->center[i] * on->center[i];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
+            double moment = second[i][j] + mass * on->center[i] * on->center[j];
+            *(i == j ? &on->inertia[i] : &on->products[i + j - 1]) = moment - (i == j) * mass * r2;
+        }
+}
+
 // What acts at time t of the run and state x, on the piece of the thrust table that holds time
 // `middle`.
 static void conditions_at(const launch_run *launch, double t, double middle, const double *x,
@@ -202,6 +242,7 @@ static void conditions_at(const launch_run *launch, double t, double middle, con
     on->slot_piece = launch->slot_piece;
     memcpy(on->slide_stop, launch->slide_stop, sizeof on->slide_stop);
     memcpy(on->passed, launch->passed, sizeof on->passed);
+    drop_fallen(&launch->model->rocket, on);
     memcpy(on->touch_speed, launch->touch_speed, sizeof on->touch_speed);
     memcpy(on->surface_touch_speed, launch->surface_touch_speed, sizeof on->surface_touch_speed);
 }

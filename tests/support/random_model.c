@@ -416,6 +416,15 @@ static void draw_ends(uint64_t seed, const ld_tubes *tubes, ld_rocket *rocket)
         if (chance(&seed, 0.3))
             one->leaves_at = with_rear;
     }
+    for (int i = 0; i < rocket->adaptor_count; i++) {
+        ld_adaptor *one = &rocket->adaptor[i];
+        if (start + one->at >= one->leaves_at || chance(&seed, 0.5))
+            continue;
+        one->falls_off.present = true;
+        one->falls_off.mass = rocket->empty.mass * between(&seed, 1e-3, 0.02);
+        one->falls_off.center[0] = between(&seed, -0.02, 0.02);
+        one->falls_off.inertia[0] = 1e-3 * rocket->empty.inertia[0];
+    }
 }
 
 void draw_random_model(uint64_t seed, ld_model *model)

@@ -7,12 +7,21 @@
 #include "model/blocks/limits.h"
 #include "model/blocks/table.h"
 
+/// What falls off with an adaptor as it leaves the guide; until then a part of the rocket.
+typedef struct ld_falling {
+    bool present;
+    double mass;       ///< [kg]
+    double center[2];  ///< [m] y, z of its mass centre in B; x is the adaptor's
+    double inertia[3]; ///< [kg m2] about its own mass centre
+} ld_falling;
+
 typedef struct ld_adaptor {
     char name[LD_MAX_NAME];
     double at;        ///< [m] l_i, from the rear adaptor
     double clearance; ///< [m] radial; not used by laws that hold on both sides, NaN there if not
                       ///< given. On surfaces: added to their gaps at this shoe, NaN: nothing
     double leaves_at; ///< [m] station of the guide at which its contact ends; NaN: the tip
+    ld_falling falls_off;
 } ld_adaptor;
 
 /// The contact laws, the first by default: each with its word and its traits. Their forces stand in

@@ -952,6 +952,15 @@ static const field_row empty_fields[] = {
     {0}};
 static const field_block empty_block = {.fields = empty_fields};
 
+static const field_row falling_fields[] = {
+    {"mass", NUMBER(ld_falling, mass, "kg"), POSITIVE, REQUIRED, .doc = "part of the rocket's"},
+    {"center", VECTOR(ld_falling, center, "m", 2), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "y, z of its mass centre from the rocket's axis; x is the adaptor's"},
+    {"inertia", VECTOR(ld_falling, inertia, "kg.m2", 3), NOT_NEGATIVE, DEFAULT(0),
+     .doc = "about its own mass centre"},
+    {0}};
+static const field_block falling_block = {.fields = falling_fields};
+static const field_word falling_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_row adaptor_fields[] = {
     {"name", WORD(ld_adaptor, name), .required = true, .doc = "name in results and paths"},
     {"at", NUMBER(ld_adaptor, at, "m"), FROM_TO(0, 100), REQUIRED,
@@ -963,6 +972,9 @@ static const field_row adaptor_fields[] = {
     {"leaves_at", NUMBER(ld_adaptor, leaves_at, "m"), ABOVE_TO(0, 100), NO_DEFAULT("tubes.length"),
      .doc = "station of the guide at which its contact ends, at most the tip's; the rear adaptor "
             "leaves last, or with others"},
+    {"falls_off", BLOCK(ld_adaptor, falls_off, falling_block), .initial_doc = "none",
+     SWITCH(ld_adaptor, falls_off.present, falling_words), .other_is_bool = true, .silent = true,
+     .doc = "part of the rocket that falls off with the adaptor as this leaves the guide"},
     {0}};
 static const field_block adaptor_block = {.fields = adaptor_fields};
 

@@ -409,6 +409,29 @@ static void mass_rules(const rule_set *rules)
         inertia_rule(rules, "rocket.empty.inertia", rocket->empty.inertia, rocket->products);
 }
 
+// Enough must be left of the rocket by all that falls off, full and empty.
+static void falling_rules(const rule_set *rules, int i)
+{
+    const ld_rocket *rocket = &rules->model->rocket;
+    const ld_mass_data *data[] = {&rocket->full, &rocket->empty};
+    const ld_adaptor *adaptor = &rocket->adaptor[i];
+    if (!adaptor->falls_off.present)
+        return;
+    if (rocket->start_at + adaptor->at >= guide_end(&rules->model->tubes, adaptor))
+        report_broken(rules, "rocket.adaptors.#.falls_off", i + 1,
+                      "the adaptor starts beyond its end, where it would have fallen off");
+    for (int k = 0; k < 2; k++)
+        for (int axis = 0; axis < 3; axis++) {
+            double mass, moment = masses_left(rocket, data[k], axis, &mass);
+            if (mass > 0 && moment > 0)
+                continue;
+            report_broken(rules, "rocket.adaptors.#.falls_off", i + 1,
+                          "what falls off leaves the %s rocket %g kg and %g kg m2 about %c",
+                          k ? "empty" : "full", mass, moment, 'x' + axis);
+            return;
+        }
+}
+
 // The rocket is out with its rear adaptor, so none leaves after that.
 static void leaving_rules(const rule_set *rules, int i)
 {
@@ -455,8 +478,10 @@ static void adaptor_rules(const rule_set *rules)
     if (rocket->start_at >= model->tubes.length)
         report_broken(rules, "rocket.start_at", 0, "%g m is not before the tube's tip at %g m",
                       rocket->start_at, model->tubes.length);
-    for (int i = 0; i < rocket->adaptor_count; i++)
+    for (int i = 0; i < rocket->adaptor_count; i++) {
         leaving_rules(rules, i);
+        falling_rules(rules, i);
+    }
 }
 
 // Adaptors that are held on the axis exactly.

@@ -150,6 +150,8 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "this adaptor is never in the guide"},
     {"rocket.adaptors.#.leaves_at", .unit = "m", .other = "tubes.length", .low = 0.3, NO_HIGH,
      .why = "most of the guide is beyond its end"},
+    {"rocket.adaptors.#.falls_off.mass", .unit = "kg", .other = "rocket.mass", NO_LOW, .high = 0.1,
+     .why = "an adaptor is a small part of the rocket"},
     {"rocket.contact.stiffness", "the frequency of the rocket on it", .unit = "Hz", .low = 2,
      .high = 5000, .form = PLAUSIBLE_FREQUENCY, .b = "rocket.mass",
      .why = "metal on metal is stiff, but a touch lasts longer than 0.1 ms"},

@@ -123,6 +123,8 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
     self->states = self->turbulence.present ? FLIGHT_STATES : FLIGHT_XI;
     if (!status)
         status = motor_build(&self->motor, flying, rocket, error);
+    if (!status)
+        motor_without_falling(&self->motor, flying);
     if (status) {
         flight_free(self);
         return status;
