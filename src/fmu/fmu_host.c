@@ -32,7 +32,8 @@ const char *__asan_default_options(void)
 #define FUNCTIONS_2(X) \
     X(fmi2Instantiate) X(fmi2FreeInstance) X(fmi2SetupExperiment) X(fmi2EnterInitializationMode) \
     X(fmi2ExitInitializationMode) X(fmi2Terminate) X(fmi2GetReal) X(fmi2SetReal) \
-    X(fmi2GetInteger) X(fmi2SetInteger) X(fmi2GetBoolean) X(fmi2SetBoolean) X(fmi2SetString) X(fmi2DoStep) \
+    X(fmi2GetInteger) X(fmi2SetInteger) X(fmi2GetBoolean) X(fmi2SetBoolean) X(fmi2SetString) \
+    X(fmi2SetRealInputDerivatives) X(fmi2DoStep) \
     X(fmi2GetRealStatus) X(fmi2GetBooleanStatus) X(fmi2GetFMUstate) X(fmi2SetFMUstate) \
     X(fmi2FreeFMUstate) X(fmi2SerializedFMUstateSize) X(fmi2SerializeFMUstate) \
     X(fmi2DeSerializeFMUstate)
@@ -373,9 +374,26 @@ static int step_once(double t, double size, double *reached, bool *ends)
     return status;
 }
 
+// The inputs of a piece that begins at t; with rates they are where these lead from the step's
+// start.
+static foreign_result set_inputs(const foreign_stepping *to, const foreign_value *input, double t)
+{
+    static const int first = 1;
+    foreign_result result = to->with_rates ? FOREIGN_DONE : set_values(input, to->inputs);
+    for (uint32_t i = 0; i < to->inputs && to->with_rates && !result; i++) {
+        foreign_value now = input[i];
+        now.value += now.rate * (t - to->t);
+        result = result_of_status(set_2(&now));
+        if (!result)
+            result = result_of_status(CALL(fmi2SetRealInputDerivatives, host.instance,
+                                           &now.reference, 1, &first, &now.rate));
+    }
+    return result;
+}
+
 // To the step's end in as many pieces as the FMU requires: where it has gone a part of the way,
 // onwards from there; where it has not, from the state before by half of it.
-static foreign_result step(const foreign_stepping *to, int64_t *pieces)
+static foreign_result step(const foreign_stepping *to, const foreign_value *input, int64_t *pieces)
 {
     enum { MOST_PIECES = 1000 };
     const double end = to->t + to->size;
@@ -385,6 +403,11 @@ static foreign_result step(const foreign_stepping *to, int64_t *pieces)
         void *before = NULL;
         double reached;
         bool ends;
+        if (*pieces == 1 || to->with_rates) {
+            foreign_result set = set_inputs(to, input, t);
+            if (set)
+                return set;
+        }
         if (host.keeps_state && result_of_status(get_state(&before)))
             return FOREIGN_REFUSED;
         int status = step_once(t, size, &reached, &ends);
@@ -436,9 +459,7 @@ static bool answer_step(const char *body, size_t size)
         size != sizeof *to + (to->inputs + to->outputs) * sizeof(foreign_value))
         return send_answer(FOREIGN_BAD, NULL, 0);
     const foreign_value *value = (const void *)(body + sizeof *to);
-    foreign_result result = set_values(value, to->inputs);
-    if (!result)
-        result = step(to, &out.pieces);
+    foreign_result result = step(to, value, &out.pieces);
     if (!result)
         result = get_values(value + to->inputs, to->outputs, out.number);
     return send_answer(

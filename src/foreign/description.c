@@ -187,6 +187,7 @@ static void read_co_simulation(description_reader *self, const XML_Char **attrib
     of->saves_state = of->keeps_state &&
                       is_true(attributes, two ? "canSerializeFMUstate" : "canSerializeFMUState");
     of->needs_tool = is_true(attributes, "needsExecutionTool");
+    of->takes_rates = two && is_true(attributes, "canInterpolateInputs");
     if (!is_true(attributes, "canHandleVariableCommunicationStepSize"))
         of->step = number(self, attributes, "fixedInternalStepSize", 0);
 }

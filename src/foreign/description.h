@@ -82,7 +82,8 @@ typedef struct foreign_description {
     bool keeps_state; // can get and set its state
     bool saves_state; // and as bytes
     bool needs_tool;
-    double step; // [s] that it steps by alone; 0: by any
+    bool takes_rates; // of its inputs (FMI 2)
+    double step;      // [s] that it steps by alone; 0: by any
     size_t count, unit_count;
     foreign_variable *variable;
     foreign_unit *unit;

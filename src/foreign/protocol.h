@@ -65,14 +65,15 @@ typedef struct foreign_opening {
 // A variable, and its value where it is set. Of an array all elements follow each other.
 typedef struct foreign_value {
     uint32_t reference;
-    int32_t type; // foreign_type
-    double value;
-    uint64_t elements; // of an array, how many; 0: it is none
+    int32_t type;       // foreign_type
+    double value, rate; // `rate`: [1/s] of an input, from where a step begins
+    uint64_t elements;  // of an array, how many; 0: it is none
 } foreign_value;
 
 typedef struct foreign_stepping {
     double t, size;           // [s]
     uint32_t inputs, outputs; // how many values follow
+    bool with_rates;          // of the inputs (FMI 2)
 } foreign_stepping;
 
 typedef struct foreign_step_answer {

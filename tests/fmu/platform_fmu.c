@@ -56,7 +56,7 @@ enum {
 };
 
 typedef struct platform {
-    double value[VALUES], t;
+    double value[VALUES], rate[VALUES], t;
     double next;       // where the last step was to end
     double x[6], u[6]; // place, rotation vector; their rates
     bool begun;
@@ -108,21 +108,23 @@ static void leave_initialization(platform *self)
         self->x[1] += 1e-3;
 }
 
-// m x'' + c x' + k x = f over h, f held: the damped oscillation about f/k.
-static void swing(double m, double k, double c, double f, double h, double *x, double *u)
+// m x'' + c x' + k x = f + s t over h: the damped oscillation about f/k - c s/k^2 + s t/k.
+static void swing(double m, double k, double c, const double f[2], double h, double *x, double *u)
 {
-    double decay = c / (2 * m), omega = sqrt(k / m - decay * decay), a = *x - f / k;
-    double b = (*u + decay * a) / omega, e = exp(-decay * h), co = cos(omega * h),
+    double drift = f[1] / k, rest = f[0] / k - c * drift / k;
+    double decay = c / (2 * m), omega = sqrt(k / m - decay * decay), a = *x - rest;
+    double b = (*u - drift + decay * a) / omega, e = exp(-decay * h), co = cos(omega * h),
            si = sin(omega * h);
-    *x = f / k + e * (a * co + b * si);
-    *u = e * ((b * omega - decay * a) * co - (a * omega + decay * b) * si);
+    *x = rest + drift * h + e * (a * co + b * si);
+    *u = drift + e * ((b * omega - decay * a) * co - (a * omega + decay * b) * si);
 }
 
 static void advance(platform *self, double h)
 {
     for (int i = 0; i < 6; i++) {
         double m, k, c, f = load(self, i, &m, &k, &c);
-        swing(m, k, c, f, h, &self->x[i], &self->u[i]);
+        swing(m, k, c, (const double[]){f, self->rate[FORCE + i]}, h, &self->x[i], &self->u[i]);
+        self->rate[FORCE + i] = 0; // of that step
     }
     self->t += h;
 }
@@ -271,6 +273,17 @@ EXPORTED fmi2Status fmi2SetReal(void *c, const unsigned *reference, size_t count
 {
     for (size_t i = 0; i < count; i++)
         ((platform *)c)->value[reference[i]] = value[i];
+    return fmi2OK;
+}
+
+EXPORTED fmi2Status fmi2SetRealInputDerivatives(void *c, const unsigned *reference, size_t count,
+                                                const int *order, const double *value)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (order[i] != 1 || reference[i] >= POSITION)
+            return fmi2Error;
+        ((platform *)c)->rate[reference[i]] = value[i];
+    }
     return fmi2OK;
 }
 

@@ -49,6 +49,7 @@ static ld_status read_with(const char *base, const char *const *sets, size_t cou
 }
 
 #define ON_PLATFORM_2 "  kind: fmu\n  file: platform2.fmu\n  step: 1 ms\n"
+#define RAMPED "  kind: fmu\n  file: ramped.fmu\n  step: 1 ms\n  inputs: ramped\n"
 #define ON_PLATFORM_3 "  kind: fmu\n  file: platform3.fmu\n  step: 1 ms\n"
 
 static on_platform begin(const char *base, double tolerance, double step)
@@ -146,6 +147,30 @@ static void the_error_falls_with_the_square_of_the_step(void **state)
     CHECK_BELOW("work missed between the two, of its size, at 1 ms", error[0], 2e-2);
     CHECK_BELOW("at 0.25 ms", error[1], 2e-4);
     CHECK_BELOW("at 0.0625 ms", error[2], 1e-5);
+}
+
+// With the rates of the wrench: against the same with a wrench that is held (FMI 2 tells the same).
+static void with_rates_of_inputs_the_order_is_three(void **state)
+{
+    (void)state;
+    outcome held[2], at[3];
+    double exact, error[3];
+    for (int i = 0; i < 2; i++)
+        held[i] = shoot(ON_PLATFORM_3, 1e-3 / (16 << 2 * i));
+    exact = held[1].pitch_rate + (held[1].pitch_rate - held[0].pitch_rate) / 15;
+    for (int i = 0; i < 3; i++) {
+        at[i] = shoot(RAMPED, 1e-3 / (i == 2 ? 8 : 1 << 2 * i));
+        error[i] = 1e3 * fabs(at[i].pitch_rate - exact);
+    }
+    CHECK_WITHIN("order of ramped inputs, 1 to 0.125 ms", log2(error[0] / error[2]) / 3, 2.8, 3.5);
+    CHECK_BELOW("pitch rate, ramped, at 1 ms [mrad/s]", error[0], 0.35);
+    CHECK_BELOW("ramped, at 0.25 ms", error[1], 5e-3);
+    CHECK_BELOW("ramped, at 0.125 ms", error[2], 6e-4);
+    for (int i = 0; i < 3; i++)
+        error[i] = fabs(at[i].missing) / at[i].largest;
+    CHECK_BELOW("work missed by the ramp, of its size, at 1 ms", error[0], 4e-3);
+    CHECK_BELOW("work missed by it at 0.25 ms", error[1], 1e-3);
+    CHECK_BELOW("work missed by it at 0.125 ms", error[2], 2e-4);
 }
 
 static void both_versions_of_FMI_tell_the_same(void **state)
@@ -305,6 +330,62 @@ static void texts_reach_it(void **state)
            soft_3 = sag(ON_PLATFORM_3 "  parameters: [{name: tuning, text: half as stiff}]\n");
     CHECK_NEAR("sag on springs half as stiff, FMI 2", soft_2 / two, 2, 1e-9);
     CHECK_NEAR("FMI 3", soft_3 / three, 2, 1e-9);
+}
+
+// Where a ramp leads it within a step, from rest without damping and gravity; `mishap`: how the
+// platform breaks the step off (platform_fmu.c).
+static void check_ramp(int mishap, const char *name)
+{
+    enum { FORCE_Y = 1, POSITION_Y = 11, DAMPING = 32, GRAVITY = 36, MISHAP = 40 };
+    const double force = 1500, rate = -4e5, h = 2e-3, omega = sqrt(K / M), phase = omega * h;
+    const foreign_value before[] = {{.reference = DAMPING},
+                                    {.reference = GRAVITY},
+                                    {.reference = MISHAP, .type = FOREIGN_INT32, .value = mishap}};
+    const foreign_value value[] = {{.reference = FORCE_Y, .value = force, .rate = rate},
+                                   {.reference = POSITION_Y}};
+    const foreign_stepping step = {
+        .t = 0.5, .size = h, .inputs = 1, .outputs = 1, .with_rates = true};
+    foreign_package *package;
+    foreign_instance *fmu;
+    ld_error error;
+    double y;
+    int pieces;
+    assert_int_equal(foreign_open(in("ramped.fmu"), &package, &error), LD_OK);
+    assert_int_equal(foreign_begin(package, 10, &fmu, &error), LD_OK);
+    assert_int_equal(foreign_set(fmu, 0, before, 3, &error), LD_OK);
+    assert_int_equal(foreign_enter(fmu, 0, step.t, &error), LD_OK);
+    assert_int_equal(foreign_leave(fmu, 0, &error), LD_OK);
+    if (foreign_step(fmu, 0, &step, value, &y, &pieces, &error))
+        fail_msg("%s", error.text);
+    // m y'' + k y = F + s t
+    double exact = force / K * (1 - cos(phase)) + rate / K * (h - sin(phase) / omega);
+    assert_true(mishap ? pieces > 4 : pieces == 1);
+    CHECK_BELOW(name, y / exact - 1, 1.5e-13);
+    foreign_end(fmu);
+    foreign_close(package);
+}
+
+static void a_ramp_moves_it_as_in_closed_form(void **state)
+{
+    (void)state;
+    check_ramp(0, "place at the end of a ramp, of its own size");
+    check_ramp(4, "a ramp in quarters of a millisecond");
+    check_ramp(5, "in halves of halves, from the start of each");
+}
+
+// Half of the platform under half of the wrench.
+static void rates_are_in_the_units_of_the_FMU(void **state)
+{
+    (void)state;
+    outcome one = shoot(RAMPED, 1e-3);
+    outcome half = shoot("  kind: fmu\n  file: two_newtons.fmu\n  step: 1 ms\n  inputs: ramped\n"
+                         "  parameters: [{name: mass, value: 500}, {name: stiffness, value: 5e5},"
+                         "{name: damping, value: 1e3}, {name: inertia, value: 500}, "
+                         "{name: turning.stiffness, value: 5e5}, "
+                         "{name: turning.damping, value: 1e3}]\n",
+                         1e-3);
+    CHECK_BELOW("pitch rate, by a unit of two newtons [mrad/s]",
+                1e3 * (one.pitch_rate - half.pitch_rate), 1e-10);
 }
 
 // An array is set and got as a whole.
@@ -585,6 +666,9 @@ static const struct {
     {"  file: nameless.fmu\n  step: 1 ms\n",
      "nameless.fmu has no variable \"base.position.x\", the default of "
      "base.connect.position; did you mean \"bass.position.x\"?"},
+    {"  file: platform3.fmu\n  step: 1 ms\n  inputs: ramped\n",
+     "platform3.fmu: found ramped, but the FMU takes no rates of its inputs (FMI 2.0, "
+     "canInterpolateInputs); expected held or extrapolated"},
     {"  file: platform3.fmu\n  step: 1 ms\n  connect: {angles: springs pitch roll}\n",
      "variable springs is an array of Float64; expected a Float64"},
 };
@@ -680,6 +764,8 @@ static int make_all(void **state)
     make_platform(in("platform2.fmu"), 2, PLATFORM_KEEPS_2);
     make_platform(in("platform3.fmu"), 3, PLATFORM_SAVES_3);
     make_nameless_platform(in("nameless.fmu"));
+    make_platform(in("ramped.fmu"), 2, PLATFORM_RAMPED_2);
+    make_platform_of_two_newtons(in("two_newtons.fmu"));
     // where packages are unpacked
     return mkdir(in("unpacked"), 0700) || setenv("TMPDIR", in("unpacked"), 1);
 }
@@ -696,6 +782,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_error_falls_with_the_square_of_the_step),
+        cmocka_unit_test(with_rates_of_inputs_the_order_is_three),
+        cmocka_unit_test(a_ramp_moves_it_as_in_closed_form),
+        cmocka_unit_test(rates_are_in_the_units_of_the_FMU),
         cmocka_unit_test(both_versions_of_FMI_tell_the_same),
         cmocka_unit_test(it_moves_as_a_base_that_a_program_moves),
         cmocka_unit_test(it_rests_where_its_springs_carry_all),

@@ -89,6 +89,10 @@ static const platform_variable platform_variables[] = {
     {"mishap_at", "s", 41, "parameter", 1},
 };
 
+#define PLATFORM_KEEPS_2 "canGetAndSetFMUstate=\"true\""
+#define PLATFORM_RAMPED_2 PLATFORM_KEEPS_2 " canInterpolateInputs=\"true\""
+#define PLATFORM_SAVES_3 "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\""
+
 static const char platform_units[] =
     "<UnitDefinitions><Unit name=\"m\"><BaseUnit m=\"1\"/></Unit>"
     "<Unit name=\"m/s\"><BaseUnit m=\"1\" s=\"-1\"/></Unit>"
@@ -174,7 +178,24 @@ static inline void make_nameless_platform(const char *path)
     free(description);
 }
 
-#define PLATFORM_KEEPS_2 "canGetAndSetFMUstate=\"true\""
-#define PLATFORM_SAVES_3 "canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\""
+// One that is given its wrench in units of two newtons.
+static inline void make_platform_of_two_newtons(const char *path)
+{
+    static const char powers[] = "kg=\"1\" m=\"1\" s=\"-2\"/>",
+                      moment[] = "kg=\"1\" m=\"2\" s=\"-2\"/>";
+    char *description = describe_platform(2, PLATFORM_RAMPED_2), *at = description, *whole = NULL;
+    size_t size;
+    FILE *to = open_memstream(&whole, &size);
+    assert_non_null(to);
+    for (; *at; at++) {
+        if (strncmp(at, powers, strlen(powers)) == 0 || strncmp(at, moment, strlen(moment)) == 0)
+            fputs("factor=\"2\" ", to);
+        fputc(*at, to);
+    }
+    fclose(to);
+    pack_platform(path, 2, whole);
+    free(whole);
+    free(description);
+}
 
 #endif

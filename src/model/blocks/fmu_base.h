@@ -24,6 +24,7 @@ typedef struct ld_fmu_parameter {
 typedef enum ld_fmu_inputs {
     LD_FMU_HELD,         ///< it holds them
     LD_FMU_EXTRAPOLATED, ///< it continues with them as the last ones report
+    LD_FMU_RAMPED,       ///< it continues with them at the rates that it is given (FMI 2.0)
 } ld_fmu_inputs;
 
 /// In which axes an FMU reports its angular velocity.

@@ -473,8 +473,10 @@ static const field_row fmu_parameter_fields[] = {
      .doc = "text in place of a number"},
     {0}};
 static const field_block fmu_parameter_block = {.fields = fmu_parameter_fields};
-static const field_word inputs_words[] = {
-    {"held", LD_FMU_HELD}, {"extrapolated", LD_FMU_EXTRAPOLATED}, {NULL, 0}};
+static const field_word inputs_words[] = {{"held", LD_FMU_HELD},
+                                          {"ramped", LD_FMU_RAMPED},
+                                          {"extrapolated", LD_FMU_EXTRAPOLATED},
+                                          {NULL, 0}};
 static const field_word axes_words[] = {
     {"inertial", LD_FMU_AXES_OF_I}, {"body", LD_FMU_AXES_OF_BODY}, {NULL, 0}};
 #define WITH_WHEELS .counted = offsetof(ld_base, vehicle.wheel_count)
@@ -525,8 +527,8 @@ static const field_row base_fields[] = {
     {"step", NUMBER(ld_base, fmu.step, "s"), ABOVE_TO(0, 1), REQUIRED, .forms = FMU,
      .doc = "between exchanges of pose and wrench, from the run's start"},
     {"inputs", CHOICE(ld_base, fmu.inputs, inputs_words), DEFAULT(LD_FMU_HELD), .forms = FMU,
-     .doc = "use within a step: `held` (the FMU receives the extrapolated mean wrench) or "
-            "`extrapolated` by the FMU (it receives the last wrench)"},
+     .doc = "use within a step: `held` (the FMU receives the extrapolated mean wrench), `ramped` "
+            "(also its rate; FMI 2.0) or `extrapolated` by the FMU (it receives the last wrench)"},
     {"connect", SAME_STRUCT(connect_block), .forms = FMU, .initial_doc = "as below",
      .doc = "names of the FMU's variables, separated by blanks"},
     {"rate_axes", CHOICE(ld_base, fmu.rate_axes, axes_words), DEFAULT(LD_FMU_AXES_OF_I),

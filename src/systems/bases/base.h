@@ -64,10 +64,16 @@ typedef struct base_system {
     int displacement_count, extra_count; // unknowns of its linearised equations
 } base_system;
 
+// The frame that an FMU reports, at time t [s].
+typedef struct fmu_found {
+    base_frame frame;
+    double t;
+} fmu_found;
+
 // What a kind finds when it places the tube, and requires again in the same evaluation.
 typedef union base_found {
     mechanism_motion mechanism;
-    base_frame fmu; // that it reports
+    fmu_found fmu;
 } base_found;
 
 // What a mechanism and its wheels report besides rates and works.

@@ -6,9 +6,12 @@
 // positions and velocities, its attitude by that of the rotation vector against the first end
 // (Hermite). So the wrench alone is extrapolated: an FMU that holds its inputs is given the mean
 // over the step that the last two wrenches report, W_k + (W_k - W_k-1)/2, whose error is of second
-// order.
+// order. One that takes rates of its inputs is given the ramp that has the integral and the first
+// moment, over the step, of the parabola through the last three: with the first and the second
+// difference D, E at t_k the mean W_k + D/2 + 5 E/12 and the rate (D + E)/step. Both the velocity
+// and the place that follow are then of third order.
 //
-// State, constant between the instants: F at both ends with their times, the last wrench, works.
+// State, constant between the instants: F at both ends with their times, the last wrenches, works.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,11 +29,14 @@ enum {
     FMU_T_TO = 1,
     FMU_FROM = 2,
     FMU_TO = FMU_FROM + FRAME_SIZE,
-    FMU_WRENCH = FMU_TO + FRAME_SIZE,    // the last, about F's origin, in I
-    FMU_MEAN = FMU_WRENCH + WRENCH_SIZE, // over the step that is known
-    FMU_STEPS = FMU_MEAN + WRENCH_SIZE,  // taken so far
-    FMU_WORK,                            // [J] done on the FMU up to its first end
-    FMU_STATES
+    FMU_WRENCH = FMU_TO + FRAME_SIZE,     // the last, about F's origin, in I
+    FMU_MEAN = FMU_WRENCH + WRENCH_SIZE,  // over the step that is known
+    FMU_STEPS = FMU_MEAN + WRENCH_SIZE,   // taken so far
+    FMU_WORK,                             // [J] done on the FMU up to its first end
+    FMU_HELD_STATES,                      // of an FMU that is given no rates
+    FMU_SLOPE = FMU_HELD_STATES,          // [1/s] of the wrench over the step that is known
+    FMU_BEFORE = FMU_SLOPE + WRENCH_SIZE, // the wrench before the last
+    FMU_STATES = FMU_BEFORE + WRENCH_SIZE
 };
 _Static_assert((int)FMU_STATES <= (int)BASE_MOST_STATES, "more states than a base is allowed");
 
@@ -129,13 +135,33 @@ static void frame_at(const double *state, double t, base_frame *frame)
         v3_add(m3_apply(J, theta_ddot), rv_left_jacobian_derivative(theta, theta_dot, theta_dot));
 }
 
-// [J] that the mean wrench has done on the way to F.
-static double work_until(const double *state, const base_frame *F)
+static bool is_ramped(const fmu_base *self)
+{
+    return self->given->inputs == LD_FMU_RAMPED;
+}
+
+// [J] that what a ramp adds to its mean has done until t, on the way to F: with
+// the motion a cubic, the integral of slope (time - h/2) velocity.
+static double ramp_work_until(const double *state, double t, const base_frame *F)
+{
+    base_frame from = frame_in(state + FMU_FROM);
+    double T = t - state[FMU_T_FROM], h = state[FMU_T_TO] - state[FMU_T_FROM];
+    v3 turn = rv_log(m3_mul(F->A, m3_transpose(from.A)));
+    v3 way = v3_add(v3_scale(0.5 * (T - h), v3_sub(F->r, from.r)),
+                    v3_scale(T * T / 12, v3_sub(F->v, from.v)));
+    v3 turning = v3_add(v3_scale(0.5 * (T - h), turn), v3_scale(T * T / 12, v3_sub(F->w, from.w)));
+    const double *slope = state + FMU_SLOPE;
+    return v3_dot(v3_from(slope), way) + v3_dot(v3_from(slope + 3), turning);
+}
+
+// [J] that the wrench, as the FMU was given it, has done until t, on the way to F.
+static double work_until(const fmu_base *self, const double *state, double t, const base_frame *F)
 {
     base_frame from = frame_in(state + FMU_FROM);
     const double *mean = state + FMU_MEAN;
-    return v3_dot(v3_from(mean), v3_sub(F->r, from.r)) +
-           v3_dot(v3_from(mean + 3), rv_log(m3_mul(F->A, m3_transpose(from.A))));
+    double work = v3_dot(v3_from(mean), v3_sub(F->r, from.r)) +
+                  v3_dot(v3_from(mean + 3), rv_log(m3_mul(F->A, m3_transpose(from.A))));
+    return is_ramped(self) ? work + ramp_work_until(state, t, F) : work;
 }
 
 static void find_frame(const base_system *base, double t, const double *state, base_frame *tube,
@@ -152,7 +178,7 @@ static void find_frame(const base_system *base, double t, const double *state, b
     tube->w = F.w;
     tube->a = v3_add(F.a, v3_add(v3_cross(F.alpha, arm), v3_cross(F.w, turning)));
     tube->alpha = F.alpha;
-    found->fmu = F;
+    found->fmu = (fmu_found){F, t};
 }
 
 // ---- what the FMU is reported and reports
@@ -194,17 +220,19 @@ static ld_status take_frame(const fmu_base *self, double t, const double *number
     return LD_OK;
 }
 
-// Its inputs with this wrench about F's origin, then its outputs; how many of each.
+// Its inputs with this wrench about F's origin, and its rate (NULL: none is given), then its
+// outputs; how many of each.
 static foreign_stepping values_of(const fmu_base *self, const double wrench[WRENCH_SIZE],
-                                  foreign_value value[LD_FMU_QUANTITIES])
+                                  const double *rate, foreign_value value[LD_FMU_QUANTITIES])
 {
-    foreign_stepping step = {.inputs = 0};
+    foreign_stepping step = {.with_rates = rate != NULL};
     int count = 0;
     for (int i = LD_FMU_FORCE; i < LD_FMU_QUANTITIES; i++) {
         const fmu_variable *one = &self->variable[i];
         if (!one->there)
             continue;
         value[count] = one->of;
+        value[count].rate = rate ? rate[i - LD_FMU_FORCE] / one->factor : 0;
         value[count++].value = (wrench[i - LD_FMU_FORCE] - one->offset) / one->factor;
     }
     step.inputs = (uint32_t)count;
@@ -278,7 +306,7 @@ static ld_status find_rest(const base_system *base, double t, const base_wrench 
         memset(wrench, 0, sizeof wrench);
     else
         carry(self, on, state + FMU_TO, wrench);
-    foreign_stepping step = values_of(self, wrench, value);
+    foreign_stepping step = values_of(self, wrench, NULL, value);
     status = foreign_set(self->instance, t, value, step.inputs, error);
     if (!status)
         status = foreign_get(self->instance, t, value + step.inputs, step.outputs, told, error);
@@ -289,7 +317,7 @@ static ld_status find_rest(const base_system *base, double t, const base_wrench 
     *moved = first ? INFINITY : 0;
     for (int i = FRAME_R; i < FRAME_V && !first; i++)
         *moved = fmax(*moved, fabs(frame[i] - state[FMU_TO + i]));
-    memset(state, 0, FMU_STATES * sizeof *state);
+    memset(state, 0, (size_t)base->state_count * sizeof *state);
     state[FMU_T_FROM] = state[FMU_T_TO] = t;
     memcpy(state + FMU_FROM, frame, sizeof frame);
     memcpy(state + FMU_TO, frame, sizeof frame);
@@ -320,6 +348,24 @@ static void choose_inputs(const fmu_base *self, const double wrench[WRENCH_SIZE]
     memcpy(last, wrench, WRENCH_SIZE * sizeof *last);
 }
 
+// The ramp in its place: where it begins. Keeps the last two wrenches, its mean and its rate.
+static void choose_ramp(const fmu_base *self, const double wrench[WRENCH_SIZE], double *state,
+                        double inputs[WRENCH_SIZE])
+{
+    const double h = self->given->step;
+    double *last = state + FMU_WRENCH, *before = state + FMU_BEFORE;
+    for (int i = 0; i < WRENCH_SIZE; i++) {
+        double first = state[FMU_STEPS] > 0 ? wrench[i] - last[i] : 0;
+        double second = state[FMU_STEPS] > 1 ? first - (last[i] - before[i]) : 0;
+        double mean = wrench[i] + first / 2 + second * 5 / 12, slope = (first + second) / h;
+        state[FMU_MEAN + i] = mean;
+        state[FMU_SLOPE + i] = slope;
+        inputs[i] = mean - slope * h / 2;
+        before[i] = last[i];
+        last[i] = wrench[i];
+    }
+}
+
 static ld_status leave_initialization(fmu_base *self, double t, ld_error *error)
 {
     ld_status status = self->going ? LD_OK : foreign_leave(self->instance, t, error);
@@ -334,7 +380,7 @@ static ld_status check_place(fmu_base *self, double t, const double *state, ld_e
     double told[LD_FMU_QUANTITIES], number[LD_FMU_FORCE], frame[FRAME_SIZE];
     double unused[WRENCH_SIZE] = {0}, moved = 0;
     foreign_value value[LD_FMU_QUANTITIES];
-    foreign_stepping step = values_of(self, unused, value);
+    foreign_stepping step = values_of(self, unused, NULL, value);
     ld_status status =
         foreign_get(self->instance, t, value + step.inputs, step.outputs, told, error);
     if (status)
@@ -361,9 +407,10 @@ static ld_status step_on(const base_system *base, double t, const base_wrench *o
     int pieces;
     base_frame to = frame_in(state + FMU_TO);
     carry(self, on, state + FMU_TO, wrench);
-    state[FMU_WORK] += work_until(state, &to);
-    choose_inputs(self, wrench, state, inputs);
-    foreign_stepping step = values_of(self, inputs, value);
+    state[FMU_WORK] += work_until(self, state, t, &to);
+    (is_ramped(self) ? choose_ramp : choose_inputs)(self, wrench, state, inputs);
+    foreign_stepping step =
+        values_of(self, inputs, is_ramped(self) ? state + FMU_SLOPE : NULL, value);
     double next = next_instant(base, t);
     step.t = self->given->start_time + (t - self->t_first);
     step.size = self->given->start_time + (next - self->t_first) - step.t;
@@ -420,8 +467,9 @@ static const quantity_table quantities = {quantity_groups, 1};
 static void fill_instant(const base_system *base, const base_found *found,
                          const base_output *output, const double *state, base_instant *instant)
 {
-    (void)base, (void)output;
-    instant->fmu.work = state[FMU_WORK] + work_until(state, &found->fmu);
+    const fmu_found *now = &found->fmu;
+    (void)output;
+    instant->fmu.work = state[FMU_WORK] + work_until(base->own, state, now->t, &now->frame);
 }
 
 // ---- set-up
@@ -591,6 +639,17 @@ static ld_status check_parameters(const fmu_base *self, ld_error *error)
     return status;
 }
 
+static ld_status check_inputs(const fmu_base *self, ld_error *error)
+{
+    if (is_ramped(self) && !self->package->description.takes_rates)
+        return ld_fail(
+            error, LD_ERR_INPUT,
+            "base.inputs: %.300s: found ramped, but the FMU takes no rates of its inputs "
+            "(FMI 2.0, canInterpolateInputs); expected held or extrapolated",
+            self->package->path);
+    return LD_OK;
+}
+
 static ld_status check_step(const fmu_base *self, ld_error *error)
 {
     double own = self->package->description.step, ratio = self->given->step / own;
@@ -611,7 +670,7 @@ static ld_status build(base_system *base, ld_error *error)
     if (!self)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the base");
     base->own = self;
-    base->state_count = FMU_STATES;
+    base->state_count = given->fmu.inputs == LD_FMU_RAMPED ? FMU_STATES : FMU_HELD_STATES;
     self->given = &given->fmu;
     self->mount = m3_mul(m3_rotation_y(given->azimuth), m3_rotation_z(given->elevation));
     self->at = v3_from(given->at);
@@ -621,6 +680,8 @@ static ld_status build(base_system *base, ld_error *error)
         status = connect_all(self, error);
     if (!status)
         status = check_parameters(self, error);
+    if (!status)
+        status = check_inputs(self, error);
     return status ? status : check_step(self, error);
 }
 
