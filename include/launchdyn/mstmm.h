@@ -55,13 +55,13 @@ typedef enum ld_hinge {
     LD_HINGE_PLANAR,
 } ld_hinge;
 
-/// A flexible tube or beam of round sections (equal second moments in both planes) along its body
-/// frame's x axis: bending, torsion and stretch as small vibrations in a frame that
-/// rides on its input end, by component modes.
+/// A flexible tube or beam along its body frame's x axis (elastic axis and line of masses; of
+/// sections with LD_SECTION_PLANES y and z are the principal axes): bending, torsion and stretch as
+/// small vibrations in a frame that rides on its input end, by component modes.
 typedef struct ld_mstmm_beam {
     double length; ///< [m]
     int section_count;
-    const ld_section *section;   ///< from x = 0 on; bore radius is not used
+    const ld_section *section;   ///< from x = 0 on, ascending; bore radius is not used
     int bending, torsion, axial; ///< number of modes: bending per plane
     int elements;                ///< finite elements at least; 0: 40
     double damping;              ///< [-] ratio, of the modes clamped at x = 0

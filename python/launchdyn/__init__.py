@@ -20,8 +20,8 @@ from .derivatives import Derivative, Sensitivity, sensitivity
 from .errors import (FileError, InputError, Interrupted, LaunchdynError, LaunchError, Message,
                      MissingError, NumericError, OutOfMemory, Status, UnknownName)
 from .fitting import Fit, FittedKey, fit
-from .multibody import (Assembly, Body, Energies, LoopJoint, Motion, Multibody, Place,
-                        Vibration)
+from .multibody import (Assembly, Beam, Body, Energies, LoopJoint, Motion, Multibody, Place,
+                        Reactions, Section, Vibration)
 from .optimising import OptimisedKey, Optimum, optimise
 from .response import Loop, LoopPoints, Margins, Response, Scatter, Strength
 from .result import Column, History, Quantity, Result, Summary
@@ -43,15 +43,16 @@ def library_version() -> str:
 
 
 __all__ = [
-    "Assembly", "BaseFrame", "Body", "Cell", "Cells", "Column", "ComparedResult",
-    "ComparedSeries", "Comparison", "Counts", "Derivative", "Energies", "Estimate", "Event",
-    "EventKind", "FileError", "Fit", "FittedKey", "Footprint", "History", "Influence",
-    "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError", "Loop", "LoopJoint",
-    "LoopPoints", "Margins", "Message", "MissingError", "Mode", "Motion", "Multibody",
-    "NumericError", "OptimisedKey", "Optimum", "OutOfMemory", "Place", "Point", "Pole",
-    "Quantity", "Response", "Result", "Run", "Scatter", "Scenario", "Sensitivity",
-    "Simulation", "Statistics", "Status", "Strength", "Study", "StudyColumn", "StudyData",
-    "Summary", "UnknownName", "Validation", "VehicleRun", "Vibration", "View", "Wrench",
-    "__version__", "compare", "draw", "figures", "fit", "keys", "library_version",
-    "merge_shards", "optimise", "sensitivity", "write_report",
+    "Assembly", "BaseFrame", "Beam", "Body", "Cell", "Cells", "Column", "ComparedResult",
+    "ComparedSeries", "Comparison", "Counts", "Derivative", "Energies", "Estimate",
+    "Event", "EventKind", "FileError", "Fit", "FittedKey", "Footprint", "History",
+    "Influence", "InputError", "Interrupted", "Key", "LaunchError", "LaunchdynError",
+    "Loop", "LoopJoint", "LoopPoints", "Margins", "Message", "MissingError", "Mode",
+    "Motion", "Multibody", "NumericError", "OptimisedKey", "Optimum", "OutOfMemory",
+    "Place", "Point", "Pole", "Quantity", "Reactions", "Response", "Result", "Run",
+    "Scatter", "Scenario", "Section", "Sensitivity", "Simulation", "Statistics", "Status",
+    "Strength", "Study", "StudyColumn", "StudyData", "Summary", "UnknownName",
+    "Validation", "VehicleRun", "Vibration", "View", "Wrench", "__version__", "compare",
+    "draw", "figures", "fit", "keys", "library_version", "merge_shards", "optimise",
+    "sensitivity", "write_report",
 ]

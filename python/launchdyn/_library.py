@@ -281,13 +281,30 @@ class ld_compared_clock(Structure):
     _fields_ = [("offset", c_double), ("uncertainty", c_double), ("found_by", c_char_p)]
 
 
+class ld_section(Structure):  # of the unions the members of planes
+    _fields_ = [("form", c_int), ("from", c_double), ("bore_radius", c_double),
+                ("outer_radius", c_double), ("area", c_double),
+                ("bending_stiffness_y", c_double), ("bending_stiffness_z", c_double),
+                ("mass_per_length", c_double), ("axial_stiffness", c_double),
+                ("bending_stiffness", c_double), ("torsion_stiffness", c_double),
+                ("polar_inertia", c_double)]
+
+
+class ld_mstmm_beam(Structure):
+    _fields_ = [("length", c_double), ("section_count", c_int), ("section", POINTER(ld_section)),
+                ("bending", c_int), ("torsion", c_int), ("axial", c_int), ("elements", c_int),
+                ("damping", c_double), ("span", c_int), ("geometric_stiffness", c_int),
+                ("reserved_number", c_int), ("shear_coefficient", c_double),
+                ("reserved", c_void_p * 2)]
+
+
 class ld_mstmm_element(Structure):
     _fields_ = [("name", c_char_p), ("parent", c_char_p), ("at", c_double * 3),
                 ("attitude", c_double * 4), ("hinge", c_int), ("axis", c_double * 3),
                 ("axis_2", c_double * 3), ("stiffness", c_double * 6), ("damping", c_double * 6),
                 ("rest", c_double * 2), ("mass", c_double), ("center", c_double * 3),
-                ("inertia", c_double * 6), ("beam", c_void_p), ("prescribed", c_int),
-                ("reserved", c_void_p * 3)]
+                ("inertia", c_double * 6), ("beam", POINTER(ld_mstmm_beam)),
+                ("prescribed", c_int), ("reserved", c_void_p * 3)]
 
 
 class ld_mstmm_end(Structure):
@@ -326,16 +343,19 @@ class ld_mstmm_mode(Structure):
     _fields_ = [("frequency", c_double), ("damping", c_double), ("rate", c_double)]
 
 
-#: Of ld_mstmm_settings: gives drive forces; receives the state, other than 0 stops.
+#: Of ld_mstmm_settings: gives drive forces; what is prescribed; receives the state, other than 0
+#: stops.
 MSTMM_DRIVE = CFUNCTYPE(None, c_double, POINTER(c_double), POINTER(c_double), POINTER(c_double),
                         POINTER(c_double), c_void_p)
+MSTMM_MOTION = CFUNCTYPE(None, c_double, POINTER(c_double), POINTER(c_double), POINTER(c_double),
+                         c_void_p)
 MSTMM_SINK = CFUNCTYPE(c_int, c_double, POINTER(c_double), POINTER(c_double), c_void_p)
 
 
 class ld_mstmm_settings(Structure):
     _fields_ = [("rtol", c_double), ("atol", c_double), ("output_step", c_double),
                 ("drive", MSTMM_DRIVE), ("sink", MSTMM_SINK), ("context", c_void_p),
-                ("motion", c_void_p), ("reserved", c_void_p * 3)]
+                ("motion", MSTMM_MOTION), ("reserved", c_void_p * 3)]
 
 
 KEY_TAKER = CFUNCTYPE(None, c_void_p, POINTER(ld_key))
@@ -555,12 +575,17 @@ FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "ld_mstmm_free": (None, [_handle]),
     "ld_mstmm_coordinate_count": (c_int, [_handle]),
     "ld_mstmm_speed_count": (c_int, [_handle]),
+    "ld_mstmm_coordinate_offset": (c_int, [_handle, c_int]),
+    "ld_mstmm_speed_offset": (c_int, [_handle, c_int]),
     "ld_mstmm_reference": (None, [_handle, c_void_p]),
     "ld_mstmm_assemble": (c_int, [_handle, c_void_p, c_void_p, c_void_p,
                                   POINTER(ld_mstmm_assembly), _error]),
     "ld_mstmm_accelerations": (c_int, [_handle, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p,
                                        _error]),
     "ld_mstmm_forces": (None, [_handle, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "ld_mstmm_reactions": (None, [_handle, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "ld_mstmm_loop_force": (None, [_handle, c_int, c_void_p]),
+    "ld_mstmm_prescribe": (None, [_handle, c_int, c_int]),
     "ld_mstmm_energy": (ld_mstmm_energies, [_handle, c_void_p, c_void_p]),
     "ld_mstmm_momentum": (None, [_handle, c_void_p, c_void_p, c_void_p, c_void_p]),
     "ld_mstmm_locate": (ld_mstmm_point, [_handle, c_void_p, c_void_p, c_int, c_void_p]),

@@ -77,3 +77,13 @@ class Case(unittest.TestCase):
         held = tempfile.TemporaryDirectory()
         self.addCleanup(held.cleanup)
         self.folder = Path(held.name)
+
+    def near(self, what, found, expected, bound, relative=False):
+        """Prints the largest difference, also relative to each number (to the largest one where
+        that is 0), and holds it below its bound."""
+        found, expected = np.atleast_1d(found), np.atleast_1d(expected).astype(float)
+        self.assertEqual(found.shape, expected.shape)
+        size = np.where(expected == 0, np.abs(expected).max(), np.abs(expected)) if relative else 1
+        most = float(np.max(np.abs(found - expected) / size))
+        print(f"    {what:60} {most:9.2e}  bound {bound:.2e}")
+        self.assertLessEqual(most, bound)

@@ -83,6 +83,7 @@ class TestInterface(unittest.TestCase):
             with self.subTest(name):
                 body = re.search(r"typedef struct " + name + r" \{(.*?)\n\} " + name + ";", PLAIN,
                                  re.S)[1]
+                body = re.sub(r"union \{[^}]*?(\w+ \w+);\s*\}", r"\1", body)  # the last of it
                 members = []
                 for line in body.split(";"):
                     line = re.sub(r"\(\*(\w+)\)\(.*\)", r"\1", " ".join(line.split()))

@@ -5,6 +5,7 @@ import unittest
 
 import launchdyn as ld
 import numpy as np
+from support import Case
 
 G = 9.81
 Z = (0, 0, 1)
@@ -43,7 +44,7 @@ def four_bar(**more):
                                       first_at=(1.8, 0, 0), second_at=(1.5, 0, 0), axis=Z, **more)])
 
 
-class TestMultibody(unittest.TestCase):
+class TestMultibody(Case):
     def test_pendulum_has_the_period_of_the_elliptic_integral(self):
         system, amplitude = ld.Multibody([pendulum()]), 2.0
         a, b = 1.0, math.cos(amplitude / 2)
@@ -51,7 +52,8 @@ class TestMultibody(unittest.TestCase):
             a, b = (a + b) / 2, math.sqrt(a * b)
         period = 2 * math.pi * math.sqrt(0.7 / G) / a
         motion = system.integrate([amplitude], [0], period, output_step=period / 2, tolerance=1e-11)
-        np.testing.assert_allclose(motion.q[:, 0], [amplitude, -amplitude, amplitude], atol=2e-8)
+        self.near("pendulum: half and whole period [rad]", motion.q[:, 0],
+                  [amplitude, -amplitude, amplitude], 4e-11)
         np.testing.assert_allclose(motion.t, [0, period / 2, period], rtol=1e-15)
 
     def test_vibrations_of_a_double_pendulum(self):
@@ -60,7 +62,8 @@ class TestMultibody(unittest.TestCase):
         stiffness = np.diag([(m + n) * G * a, n * G * b])  # in absolute angles
         expected = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(mass, stiffness)))) / math.tau
         found = double().vibration([0, 0])
-        np.testing.assert_allclose([mode.frequency for mode in found], expected, rtol=1e-9)
+        self.near("double pendulum: frequencies, relative", [mode.frequency for mode in found],
+                  expected, 1e-12, relative=True)
         for mode in found:
             absolute = np.cumsum(mode.shape)
             left = stiffness @ absolute
@@ -80,7 +83,7 @@ class TestMultibody(unittest.TestCase):
         q[:4] /= np.linalg.norm(q[:4])
         u, tau, wrench = draw.normal(size=5), draw.normal(size=5), draw.normal(size=(2, 6))
         found = system.forces(q, u, system.accelerations(q, u, tau, wrench), wrench)
-        np.testing.assert_allclose(found, tau, atol=1e-13)
+        self.near("inverse of forward dynamics [N m]", found, tau, 4e-15)
 
     def test_energy_and_momentum_about_the_vertical_stay(self):
         system = top()
@@ -88,8 +91,8 @@ class TestMultibody(unittest.TestCase):
                                   tolerance=1e-10)
         energies = [sum(system.energy(q, u)) for q, u in zip(motion.q, motion.u)]
         about = [system.momentum(q, u)[1][1] for q, u in zip(motion.q, motion.u)]
-        self.assertLess(np.ptp(energies), 2e-8)
-        self.assertLess(np.ptp(about), 1e-8)
+        self.near("top and rod: energy [J]", energies, np.full(5, energies[0]), 5e-10)
+        self.near("their momentum about the vertical [kg m2/s]", about, np.full(5, about[0]), 2e-11)
         self.assertGreater(np.ptp([system.energy(q, u).kinetic
                                    for q, u in zip(motion.q, motion.u)]), 0.1)
 

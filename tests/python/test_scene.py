@@ -92,11 +92,6 @@ def rows(result, scene):
 
 
 class Scenes(Case):
-    def near(self, what, found, expected, bound):
-        most = float(np.max(np.abs(np.asarray(found) - expected)))
-        print(f"    {what:60} {most:9.2e}  bound {bound:.2e}")
-        self.assertLessEqual(most, bound)
-
     def scene(self, scenario, **more):
         result = scenario.run(out=self.folder / "out")
         ld.draw(self.folder / "scene.glb", self.folder / "out", **more)

@@ -110,6 +110,16 @@ static void test_bad_descriptions(void **state)
     refused(
         e, 2,
         "element 'b': a beam has at most 24 bending modes a plane, 8 torsional and 8 axial ones");
+    beam.bending = 2;
+    beam.damping = -0.5;
+    refused(e, 2, "element 'b': damping ratio -0.5, expected 0 to 1");
+    beam.damping = 0;
+    ld_section sections[2] = {section, section};
+    beam.section = sections;
+    beam.section_count = 2;
+    refused(e, 2, "element 'b': section 2 of the beam begins at 0 m, expected it beyond 0 m");
+    sections[0].from = 0.1;
+    refused(e, 2, "element 'b': section 1 of the beam begins at 0.1 m, expected it at 0 m");
 }
 
 static void loop_refused(const ld_mstmm_loop *loops, int count, const char *sentence)

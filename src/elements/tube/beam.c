@@ -9,6 +9,24 @@
 
 enum { DEFAULT_ELEMENTS = 40 };
 
+static ld_status check_section(const ld_section *section, int i, const char *name, ld_error *error)
+{
+    const ld_section *s = &section[i];
+    if (!(s->mass_per_length > 0) || !(section_stiffness_y(s) > 0) ||
+        !(section_stiffness_z(s) > 0) || !(s->torsion_stiffness > 0) || !(s->axial_stiffness > 0) ||
+        !(s->polar_inertia > 0))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "element '%s': section %d of the beam needs mass, stiffnesses and polar "
+                       "inertia above 0",
+                       name, i + 1);
+    if (i == 0 ? s->from != 0 : !(s->from > s[-1].from))
+        return ld_fail(error, LD_ERR_INPUT,
+                       "element '%s': section %d of the beam begins at %g m, expected %s %g m",
+                       name, i + 1, s->from, i == 0 ? "it at" : "it beyond",
+                       i == 0 ? 0 : s[-1].from);
+    return LD_OK;
+}
+
 static ld_status check(const ld_mstmm_beam *given, const char *name, ld_error *error)
 {
     if (!(given->length > 0) || given->section_count < 1 || !given->section)
@@ -29,17 +47,13 @@ static ld_status check(const ld_mstmm_beam *given, const char *name, ld_error *e
         return ld_fail(error, LD_ERR_INPUT,
                        "element '%s': shear coefficient %g, expected 0 (none) to 1", name,
                        given->shear_coefficient);
-    for (int i = 0; i < given->section_count; i++) {
-        const ld_section *s = &given->section[i];
-        if (!(s->mass_per_length > 0) || !(section_stiffness_y(s) > 0) ||
-            !(section_stiffness_z(s) > 0) || !(s->torsion_stiffness > 0) ||
-            !(s->axial_stiffness > 0) || !(s->polar_inertia > 0))
-            return ld_fail(error, LD_ERR_INPUT,
-                           "element '%s': section %d of the beam needs mass, stiffnesses and polar "
-                           "inertia above 0",
-                           name, i + 1);
-    }
-    return LD_OK;
+    if (!(given->damping >= 0 && given->damping <= 1))
+        return ld_fail(error, LD_ERR_INPUT, "element '%s': damping ratio %g, expected 0 to 1", name,
+                       given->damping);
+    ld_status status = LD_OK;
+    for (int i = 0; !status && i < given->section_count; i++)
+        status = check_section(given->section, i, name, error);
+    return status;
 }
 
 static bool allocate(beam *self)
