@@ -163,9 +163,17 @@ static void describe_initial_shape(FILE *stream, const ld_initial_shape *shape)
         const double *row = table->data + i * table->columns;
         most = fmax(most, hypot(shape->scale[0] * row[1], shape->scale[1] * row[2]));
     }
-    if (shape->present)
+    if (table->rows > 0)
         fprintf(stream, "#   bent by up to %s%s\n", MILLIMETRES(most),
                 table->columns > 3 ? ", and twisted" : "");
+    if (shape->random.present)
+        fprintf(stream, "#   random bends of up to %s\n", MILLIMETRES(shape->random.deviation));
+    for (int i = 0; i < shape->joint_count; i++) {
+        const ld_rail_joint *joint = &shape->joint[i];
+        fprintf(stream, "#   joint at %s: step of %s, kink of %s\n", METRES(joint->at),
+                MILLIMETRES(hypot(joint->step[0], joint->step[1])),
+                DEGREES(hypot(joint->kink[0], joint->kink[1])));
+    }
 }
 
 static void describe_guide(FILE *stream, const ld_model *model)

@@ -3,10 +3,16 @@
 
 #include "support/check.h"
 
+static void draw_jointed(uint64_t seed, ld_model *model)
+{
+    draw_random_model(seed, model);
+    draw_joint(seed, model);
+}
+
 static void every_model_ends(void **state)
 {
     (void)state;
-    run_random_models(draw_random_model, OF_ALL(24, 8));
+    run_random_models(draw_jointed, OF_ALL(24, 8));
 }
 
 int main(void)

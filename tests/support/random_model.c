@@ -463,6 +463,30 @@ void draw_random_model(uint64_t seed, ld_model *model)
     draw_ends(seed ^ 0x1b873593, &model->tubes, &model->rocket);
 }
 
+void draw_joint(uint64_t seed, ld_model *model)
+{
+    ld_initial_shape *shape = &model->tubes.initial_shape;
+    double length = model->tubes.length;
+    seed ^= 0x3c6ef372;
+    if (chance(&seed, 0.6))
+        return;
+    if (!shape->present)
+        *shape = (ld_initial_shape){.present = true, .scale = {1, 1}, .twist_scale = 1};
+    ld_rail_joint *joint = &shape->joint[0];
+    shape->joint_count = 1;
+    joint->at = between(&seed, 0, length);
+    joint->length = between(&seed, 0.01, 0.2);
+    for (int k = 0; k < 2; k++) {
+        joint->step[k] = between(&seed, -2e-4, 2e-4);
+        joint->kink[k] = between(&seed, -5e-4, 5e-4);
+    }
+    shape->seed = choice(&seed, 100);
+    shape->random.present = chance(&seed, 0.7);
+    shape->random.deviation = between(&seed, 0, 3e-4) * length;
+    shape->random.terms = 1 + choice(&seed, 8);
+    shape->random.decay = between(&seed, 1, 3);
+}
+
 // ---- running ----
 
 // When a column's number may be none.

@@ -24,6 +24,8 @@ void scale_together(uint64_t *seed, int count, double *value);
 // A fixed or prescribed base, tubes, rocket, contact and run settings; free with
 // reference_model_free().
 void draw_random_model(uint64_t seed, ld_model *model);
+// Random bends and a joint to some of them, on what initial shape they have.
+void draw_joint(uint64_t seed, ld_model *model);
 
 // Draws and runs models; `otherwise`: how many where LD_RANDOM_MODELS does not say.
 void run_random_models(void (*draw_one)(uint64_t seed, ld_model *model), int otherwise);

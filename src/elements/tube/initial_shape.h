@@ -1,8 +1,10 @@
 // The initial shape of a guide: how the line that guides the rocket departs from a straight one in
 // the unloaded tube (model.md, section 5).
 //
-// Offsets y_0(x), z_0(x) and a twist tau_0(x), cubic splines, small against the length. A section
-// that guides the rocket is where deflection and shape together put it:
+// Offsets y_0(x), z_0(x) and a twist tau_0(x), small against the length: cubic splines through
+// surveyed rows, sums of random half waves (splines, too) and rounded steps and kinks where two
+// lengths meet (cubic, C1). A section that guides the rocket is where deflection and shape together
+// put it:
 //   P = x e_x + Phi q + (0, y_0, z_0),   t = e_x + Phi' q + (0, y_0', z_0')
 //   th = Psi q + (tau_0, -z_0', y_0'),   k_0 = Psi' q + (tau_0', -z_0'', y_0'')
 // Mass, stiffness, supports and what the tube's own columns report belong to the straight axis.

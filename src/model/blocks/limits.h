@@ -10,6 +10,7 @@ enum {
     LD_MAX_CLAMPED = 12,         ///< such directions in all
     LD_MAX_STATIONS = 16,
     LD_MAX_WIND_DRAGS = 16, ///< lengths of the guide in the wind
+    LD_MAX_RAIL_JOINTS = 10,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_PARACHUTES = 8,
     LD_LINE_PLACES = 12, ///< places of a line in results

@@ -62,12 +62,33 @@ typedef struct ld_layout {
     double first[3]; ///< [m] rear end of tube 1, platform axes
 } ld_layout;
 
+/// A place where two lengths of the guide meet.
+typedef struct ld_rail_joint {
+    double at;      ///< [m] station
+    double step[2]; ///< [m] y, z: by how much the guide beyond it is off
+    double kink[2]; ///< [rad] in y, z: by how much the guide beyond it is turned
+    double length;  ///< [m] over which step and kink are rounded, around `at`
+} ld_rail_joint;
+
+/// Sine half waves between the ends, whose amplitudes a seed decides.
+typedef struct ld_random_bends {
+    bool present;
+    double deviation; ///< [m] largest distance from the line between the ends
+    int terms;        ///< half waves, 1 to this many
+    double decay;     ///< [-] standard deviations fall as the number of half waves to this power
+} ld_random_bends;
+
 /// How the unloaded guide departs from a straight line.
 typedef struct ld_initial_shape {
     bool present;
-    ld_table offsets;   ///< x [m], y_0, z_0 [m], perhaps twist [rad]; cubic spline
+    ld_table offsets;   ///< x [m], y_0, z_0 [m], perhaps twist [rad]; cubic spline; empty: none
     double scale[2];    ///< [-] factors on y_0, z_0
     double twist_scale; ///< [-] factor on the twist
+    double accuracy[2]; ///< [m] standard deviations of each row's y_0, z_0
+    ld_random_bends random;
+    int seed; ///< of random bends and of the rows' errors
+    int joint_count;
+    ld_rail_joint joint[LD_MAX_RAIL_JOINTS];
 } ld_initial_shape;
 
 typedef struct ld_tubes {

@@ -871,14 +871,44 @@ static const field_row turned_offset_columns[] = {
 static const table_format turned_offset_table = {TABLE_CSV, 4, turned_offset_columns, NULL};
 static const table_format offset_table = {TABLE_CSV, 3, turned_offset_columns,
                                           &turned_offset_table};
+static const field_row random_bends_fields[] = {
+    {"deviation", NUMBER(ld_random_bends, deviation, "m"), FROM_TO(0, 1), REQUIRED,
+     .doc = "greatest distance from the line between rear end and tip"},
+    {"terms", INTEGER(ld_random_bends, terms, 1, 100), DEFAULT(8),
+     .doc = "sines of 1 to this many half waves along the tube"},
+    {"decay", NUMBER(ld_random_bends, decay, ""), FROM_TO(0, 10), DEFAULT(2),
+     .doc = "standard deviations of the sines fall as the number of half waves to this power"},
+    {0}};
+static const field_block random_bends_block = {.fields = random_bends_fields};
+static const field_word random_bends_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row rail_joint_fields[] = {
+    {"at", NUMBER(ld_rail_joint, at, "m"), FROM_TO(0, 100), REQUIRED, .doc = "station"},
+    {"step", VECTOR(ld_rail_joint, step, "m", 2), FROM_TO(-0.1, 0.1), DEFAULT(0),
+     .doc = "y, z: by how much the guide beyond it is off"},
+    {"kink", VECTOR(ld_rail_joint, kink, "rad", 2), FROM_TO(-0.1, 0.1), DEFAULT(0),
+     .doc = "along y, z: by how much the guide beyond it is turned"},
+    {"length", NUMBER(ld_rail_joint, length, "m"), FROM_TO(0.001, 10), REQUIRED,
+     .doc = "over which both are rounded, around `at`: length of a shoe or of its chamfer"},
+    {0}};
+static const field_block rail_joint_block = {.fields = rail_joint_fields};
 static const field_row initial_shape_fields[] = {
-    {"offsets", TABLE(ld_initial_shape, offsets, offset_table), .required = true,
+    {"offsets", TABLE(ld_initial_shape, offsets, offset_table), .initial_doc = "none",
      .doc = "of the guide from a straight line along the tube, over the station (cubic spline); "
             "rows must reach from the rear end to the tip"},
     {"scale", VECTOR(ld_initial_shape, scale, "", 2), FROM_TO(-1000, 1000), DEFAULT(1),
-     .doc = "factors on y and on z"},
+     .doc = "factors on y and on z of `offsets`"},
     {"twist_scale", NUMBER(ld_initial_shape, twist_scale, ""), FROM_TO(-1000, 1000), DEFAULT(1),
-     .doc = "factor on the twist"},
+     .doc = "factor on their twist"},
+    {"accuracy", VECTOR(ld_initial_shape, accuracy, "m", 2), FROM_TO(0, 0.1), DEFAULT(0),
+     .doc =
+         "standard deviations of y and z of a row; errors are drawn by the seed, before `scale`"},
+    {"random", BLOCK(ld_initial_shape, random, random_bends_block), .initial_doc = "none",
+     SWITCH(ld_initial_shape, random.present, random_bends_words), .other_is_bool = true,
+     .doc = "bends of a given size, y and z independent"},
+    {"seed", INTEGER(ld_initial_shape, seed, 0, 999999999), DEFAULT(1),
+     .doc = "of `random` and `accuracy`"},
+    {"joints", LIST(ld_initial_shape, joint, joint_count, rail_joint_block, 0, LD_MAX_RAIL_JOINTS),
+     .initial_doc = "none", .doc = "places where two lengths of the guide meet"},
     {0}};
 static const field_block initial_shape_block = {.fields = initial_shape_fields};
 static const field_word initial_shape_words[] = {{"straight", 0}, {"", 1}, {NULL, 0}};

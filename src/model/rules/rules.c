@@ -586,9 +586,16 @@ static void side_force_rules(const rule_set *rules)
 static void initial_shape_rules(const rule_set *rules)
 {
     const ld_tubes *tubes = &rules->model->tubes;
-    const ld_table *table = &tubes->initial_shape.offsets;
+    const ld_initial_shape *shape = &tubes->initial_shape;
+    const ld_table *table = &shape->offsets;
     rising_rule(rules, "tubes.initial_shape.offsets.#", table, "m", false);
-    if (!tubes->initial_shape.present || table->rows == 0)
+    for (int i = 0; i < shape->joint_count; i++)
+        station_rule(rules, "tubes.initial_shape.joints.#.at", i + 1, shape->joint[i].at);
+    if (shape->present && table->rows == 0 && !shape->random.present && shape->joint_count == 0)
+        report_broken(rules, "tubes.initial_shape", 0, "needs offsets, random or joints");
+    if (table->rows == 0 && (shape->accuracy[0] > 0 || shape->accuracy[1] > 0))
+        report_broken(rules, "tubes.initial_shape.accuracy", 0, "needs offsets");
+    if (!shape->present || table->rows == 0)
         return;
     double last = table->data[table->columns * (table->rows - 1)];
     if (table->data[0] > 0)

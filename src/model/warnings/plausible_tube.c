@@ -173,7 +173,7 @@ static plausible_pair initial_slope(const plausible_entry *at)
         double y = shape->scale[0] * (to[1] - from[1]), z = shape->scale[1] * (to[2] - from[2]);
         steepest = fmax(steepest, hypot(y, z) / (to[0] - from[0]));
     }
-    return plausible_alone(shape->present ? steepest : NAN);
+    return plausible_alone(table->rows > 1 ? steepest : NAN);
 }
 
 // ---- slot
@@ -316,6 +316,12 @@ const plausible_rule plausible_of_tube[] = {
     {"tubes.initial_shape.offsets", "its steepest slope between two rows", .unit = "", NO_LOW,
      .high = 0.01, .find = initial_slope, .of = "tubes.initial_shape.scale",
      .why = "guides are straight to a millimetre or two in a metre"},
+    {"tubes.initial_shape.random.deviation", .unit = "m", .other = "tubes.length", NO_LOW,
+     .high = 0.002, .why = "guides are straight to a millimetre or two in a metre"},
+    {"tubes.initial_shape.joints.#.step", "its size", .unit = "m", NO_LOW, .high = 0.002,
+     .form = PLAUSIBLE_NORM, .why = "lengths of a rail meet within a millimetre or two"},
+    {"tubes.initial_shape.joints.#.kink", "its size", .unit = "rad", NO_LOW, .high = 0.01,
+     .form = PLAUSIBLE_NORM, .why = "lengths of a rail are in line within half a degree"},
     {"tubes.jet", "the greatest force", .unit = "N", .other = "the greatest thrust", NO_LOW,
      .high = 1, .form = PLAUSIBLE_GREATEST, .column = 1, .b = "tubes.jet_scale",
      .why = "the force of a jet is at most the thrust"},
