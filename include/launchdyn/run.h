@@ -27,6 +27,7 @@ typedef enum ld_event_kind {
     LD_EVENT_CORNER,   ///< of the thrust curve, or of a commanded angle
     LD_EVENT_TOUCH,  ///< adaptor `part` comes to the tube's wall (contact law lankarani-nikravesh)
     LD_EVENT_BREECH, ///< the rocket comes to the breech (that law alone)
+    LD_EVENT_LINE,   ///< the line that the rocket pulls becomes taut, or breaks
     LD_EVENT_LIFT,   ///< wheel `part` leaves the road (integrated together alone, as the next)
     LD_EVENT_LAND,   ///< wheel `part` comes back to it
     LD_EVENT_LEAVE,  ///< the tube leaves stop `part` of its recoil slides

@@ -28,6 +28,10 @@ enum { X_S, X_Y, X_Z, X_PSI, X_THETA, X_GAMMA, X_COUNT };
 
 enum { LD_SLIDE_STOPS = 2 }; // of a recoil slide: the front one, the one behind
 
+// What a line does that the rocket pulls: as fast as the rocket, slack, drawn taut up to where the
+// wave has come, or broken.
+typedef enum line_state { LINE_TAUT, LINE_SLACK, LINE_JERKED, LINE_BROKEN } line_state;
+
 // What is switched by events.
 typedef struct launching_phase {
     bool rocket; // in the tube
@@ -39,6 +43,8 @@ typedef struct launching_phase {
     double breech_speed; // [m/s] at which that one touched it last
     // each stop of the recoil slides: pushes (1), does not (-1), or as it lies and moves (0)
     int pushing[LD_MAX_SUPPORTS][LD_SLIDE_STOPS];
+    line_state line;
+    double line_out;   // [m] length of a line that is out, unless it is LINE_TAUT
     bool frictionless; // Coulomb friction off (equilibrium, linearisation)
     // [1/s2] what constraints hold in place is pulled back there by so much (equilibrium); else 0
     double restoring;
@@ -158,6 +164,7 @@ typedef struct launching_output {
     double pressure_force;    // [N] on the rocket along +x
     double line_tension;      // [N] pull of a line on the rocket
     double line_paid;         // [m] its length that is out
+    double line_left;         // falls through zero where its line_state changes
     double emerged;           // [m] length of the rocket that is out of the tube, in the air
     v3 crossflow;             // [N] force of the air on it, in R
     double guide_jet;         // [N] of the jet on the guide's front end

@@ -712,15 +712,19 @@ static ld_status begin_line(flight_run *run)
         .gravity = earth_gravity(&job->system->earth, v3_zero()),
         .ground = job->system->has_ground ? job->system->ground : -INFINITY,
         .air = job->system->atmosphere.kind == LD_ATMOSPHERE_NONE ? NULL : air_of_line,
-        .self = job->system};
+        .self = job->system,
+        .carried = job->carried,
+        .carrier = job->carrier};
     line_bridle bridle = bridle_now(run);
     double distance = v3_norm(v3_sub(bridle.r, setting.container));
-    if (distance > given->length)
+    bool broken = job->broken.paid > 0;
+    if (distance > given->length && !broken)
         return ld_fail(run->error, LD_ERR_LAUNCH,
                        "rocket.line.container: the flight begins %.6g m away from it, the line is "
                        "%.6g m long",
                        distance, given->length);
-    run->line = line_create(&setting, job->t_start, &bridle);
+    run->line = broken ? line_create_broken(&setting, job->t_start, &job->broken)
+                       : line_create(&setting, job->t_start, &bridle);
     if (!run->line)
         return ld_fail(run->error, LD_ERR_MEMORY, "no memory for a line");
     run->phase.line = run->line;
@@ -740,13 +744,14 @@ static void step_line(flight_run *run)
     dormand_prince_start(steps, steps->step.t, steps->step.y);
 }
 
-// After a landing the line falls until it lies, or hangs from its container.
+// After a landing the line falls until it lies, or hangs from its container, which stays there.
 static void lay_line(flight_run *run)
 {
     const double longest = 120; // [s]
     line_bridle bridle = bridle_now(run);
     bridle.v = bridle.a = v3_zero();
     double until = run->line->t + longest;
+    line_hold_still(run->line);
     while (!line_rests(run->line) && run->line->t < until)
         line_advance(run->line, run->line->t + line_step(run->line), &bridle);
 }
@@ -774,7 +779,7 @@ static void record_line(flight_run *run)
         out->place[i].y = r.y;
         out->place[i].z = r.z;
     }
-    if (line->cut >= 0)
+    if (line->cut >= 0 && !(run->job->broken.paid > 0))
         summary_note(run->summary,
                      "the line broke at t = %.4f s, %.4g m from the rocket, at x = %.1f m, y = "
                      "%.1f m, z = %.1f m",

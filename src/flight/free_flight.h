@@ -20,7 +20,10 @@ typedef struct free_flight {
     double t_end;    // infinity: to the ground
     double launch_x; // [m] launch point in I
     double launch_z;
-    v3 container;                  // [m] of the rocket's line, in I
+    v3 container; // [m] of the rocket's line, in I, as of line_setting are the next
+    line_bridle (*carried)(const void *carrier, double t);
+    const void *carrier;
+    line_break broken;             // of the line, before
     const ld_run_options *options; // its progress is called; may be NULL
     // Called for each row of the history (at the output steps, the start, key instants and the
     // end); may be NULL.

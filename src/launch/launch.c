@@ -275,6 +275,7 @@ ld_status launch_begin(ld_run *run)
         launch_pass_stop(run, run->t_start);
     }
     self->phase.locked = self->rocket->lock.present;
+    launch_lay_line(run, run->t_start, y);
     launch_release_at_once(run, run->t_start, y);
     launch_pass_corners(run, run->t_start, y, false);
     launch_measure_instant(run, run->t_start, y);

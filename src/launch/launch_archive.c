@@ -12,6 +12,10 @@ static void archive_phase(archive *bytes, launching_phase *phase)
 {
     archive_bool(bytes, &phase->rocket);
     archive_bool(bytes, &phase->locked);
+    int line = (int)phase->line;
+    archive_int(bytes, &line, LINE_TAUT, LINE_BROKEN);
+    phase->line = (line_state)line;
+    archive_double(bytes, &phase->line_out);
     archive_bool(bytes, &phase->frictionless);
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
         archive_bool(bytes, &phase->passed[i]);
@@ -97,7 +101,7 @@ static void archive_summary(archive *bytes, ld_run *run)
         archive_doubles(bytes, run->point[i], 2);
     }
     if (run->launch.rocket->line.present)
-        archive_doubles(bytes, run->container, 3);
+        archive_doubles(bytes, run->container, sizeof run->container / sizeof(double));
     archive_int(bytes, &summary->equilibrium.wheel_count, 0, LD_MAX_WHEELS);
     quantity_archive(&run_quantities, &things, summary, bytes);
     const int most_notes = sizeof summary->note / sizeof *summary->note;

@@ -92,6 +92,83 @@ static void let_go(ld_run *run, double t, const double *y)
     launch_record_event(run, LD_EVENT_RELEASE, t, -1);
 }
 
+// ---- the line
+
+static const launching_output *line_output(launch_state *self, double t, const double *y)
+{
+    self->latest.known = false; // another phase may hold since then
+    const launcher_output *at = simulation_output(self, t, y);
+    return at ? &at->launching : NULL;
+}
+
+void launch_lay_line(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    const ld_line *given = &self->rocket->line;
+    const launching_output *out =
+        given->present && given->slack > 0 ? line_output(self, t, y) : NULL;
+    if (!out)
+        return;
+    self->phase.line_out = out->line_paid + given->slack;
+    self->phase.line = LINE_SLACK;
+    self->latest.known = false;
+}
+
+// At the bridle (line_pull.h).
+static void break_line(ld_run *run, double t, const double *y, const launching_output *out)
+{
+    launch_state *self = &run->launch;
+    ld_rocket_summary *rocket = &run->summary.rocket[self->current];
+    const launching_layout *at = &self->launcher.launching.layout;
+    launching_output unused;
+    launching_pose pose;
+    launching_rocket_pose(&self->launcher.launching, y, &pose, &unused);
+    v3 bridle = v3_add(pose.p1, m3_apply(pose.A_RB, v3_from(self->rocket->line.bridle)));
+    v3 r = v3_add(v3_from(y + at->r), m3_apply(q_matrix(q_from(y + at->quaternion)), bridle));
+    self->phase.line_out = out->line_paid;
+    self->phase.line = LINE_BROKEN;
+    rocket->line.t_break = t - self->t_ignition;
+    rocket->line.broken_at = 0;
+    v3_store(rocket->line.broken, r);
+    summary_note(&run->summary,
+                 "the line broke in the guide at t = %.4f s, at the rocket, %.4g m out, by %.4g N",
+                 t, out->line_paid, out->line_tension);
+    launch_record_event(run, LD_EVENT_LINE, t, -1);
+}
+
+// From slack to a jerk to taut; or it breaks.
+static void switch_line(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    const launching_output *out = line_output(self, t, y);
+    double breaking = self->rocket->line.breaking_force;
+    double left = out && !isnan(breaking) ? 1 - out->line_tension / breaking : 1;
+    if (self->phase.line == LINE_SLACK)
+        self->phase.line = LINE_JERKED;
+    else if (out && (self->phase.line == LINE_TAUT || left <= out->line_left))
+        break_line(run, t, y, out);
+    else
+        self->phase.line = LINE_TAUT;
+    if (self->phase.line == LINE_JERKED)
+        launch_record_event(run, LD_EVENT_LINE, t, -1);
+    self->latest.known = false;
+}
+
+static void break_line_at_once(ld_run *run, double t, const double *y)
+{
+    launch_state *self = &run->launch;
+    const ld_line *given = &self->rocket->line;
+    if (!given->present || !self->phase.rocket || isnan(given->breaking_force) ||
+        self->phase.line == LINE_BROKEN)
+        return;
+    const launching_output *out = line_output(self, t, y);
+    if (out && out->line_tension > given->breaking_force)
+        break_line(run, t, y, out);
+    self->latest.known = false;
+}
+
+// ---- the phase
+
 // As the integrator reports it: 1, -1, or 0.
 static int wall_event(const ld_run *run, int i, int wall)
 {
@@ -199,6 +276,10 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
         launch_record_event(run, LD_EVENT_BREECH, t, -1);
         changed = true;
     }
+    if (self->phase.rocket && propagator_event(run->propagator, EVENT_LINE, 0) < 0) {
+        switch_line(run, t, y);
+        changed = true;
+    }
     changed |= touch_surfaces(run, t, y);
     for (int j = 0; j < self->launcher.base.event_count; j++) {
         int direction = propagator_event(run->propagator, EVENT_BASE, j);
@@ -217,7 +298,7 @@ bool launch_switch_phase(ld_run *run, double t, const double *y)
 
 // A jump of the thrust, or the start itself, can carry the lock's force past the release force
 // without a crossing that the integrator could locate.
-void launch_release_at_once(ld_run *run, double t, const double *y)
+static void open_lock_at_once(ld_run *run, double t, const double *y)
 {
     launch_state *self = &run->launch;
     if (!self->phase.locked || self->held_down)
@@ -228,6 +309,12 @@ void launch_release_at_once(ld_run *run, double t, const double *y)
         return;
     run->greatest_lock_force = fmax(run->greatest_lock_force, out->lock_force);
     let_go(run, t, y);
+}
+
+void launch_release_at_once(ld_run *run, double t, const double *y)
+{
+    open_lock_at_once(run, t, y);
+    break_line_at_once(run, t, y);
 }
 
 // When the next tube takes the place of the one that is empty now.

@@ -10,7 +10,10 @@ bool launch_switch_phase(ld_run *run, double t, const double *y);
 bool launch_hold_stops(ld_run *run, double t, const double *y, bool at_event);
 // The same of the corners of adaptors, of a launch with a course, at its start, events and stops.
 void launch_pass_corners(ld_run *run, double t, const double *y, bool at_event);
-// Opens a lock that carries more than its release force without a crossing to be located.
+// Lays out the slack of a line, at the start.
+void launch_lay_line(ld_run *run, double t, const double *y);
+// Opens a lock that carries more than its release force without a crossing to be located; breaks a
+// line likewise.
 void launch_release_at_once(ld_run *run, double t, const double *y);
 // When the next tube takes the place of the one that is empty now [s].
 double launch_change_instant(const launch_state *self);

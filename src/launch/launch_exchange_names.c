@@ -148,6 +148,9 @@ exchange_quantity launch_exchange_indicator(const ld_run *run, int i)
     case EVENT_BREECH:
         return quantity_as("", "", "The rocket touches the breech where it rises through zero",
                            "breech");
+    case EVENT_LINE:
+        return quantity_as("", "", "The line becomes taut or breaks where it falls through zero",
+                           "line");
     default:
         return quantity_as("", "", "The slide's stop pushes while it is positive", "stop.%d.%d",
                            index / LD_SLIDE_STOPS + 1, index % LD_SLIDE_STOPS + 1);

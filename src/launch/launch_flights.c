@@ -75,6 +75,58 @@ ld_status launch_begin_jet(ld_run *run, double t, const double *y)
     return launch_add_jet(run, &mouth, &run->error);
 }
 
+// The container on a base that goes by time; beyond what its table covers it goes on as there.
+static line_bridle carried_by_time(const void *carrier, double t)
+{
+    const ld_run *run = carrier;
+    const base_system *base = &run->launch.launcher.base;
+    double first, last;
+    base_frame frame;
+    base_found found;
+    base_span(base, &first, &last);
+    double known = fmin(t, last);
+    base->kind->find_frame(base, known, NULL, &frame, &found);
+    v3 arm = m3_apply(frame.A, v3_from(run->launch.rocket->line.container));
+    v3 turns = v3_cross(frame.w, arm), v = v3_add(frame.v, turns);
+    v3 a = v3_add(frame.a, v3_add(v3_cross(frame.alpha, arm), v3_cross(frame.w, turns)));
+    return (line_bridle){v3_axpy(v3_add(frame.r, arm), t - known, v), v, t < last ? a : v3_zero()};
+}
+
+// On any other, which is not known after the exit: with the velocity that it had there.
+static line_bridle carried_steadily(const void *carrier, double t)
+{
+    const ld_run *run = carrier;
+    const ld_rocket_summary *rocket = &run->summary.rocket[0];
+    double since = t - (rocket->t_ignition + rocket->t_rear);
+    v3 v = v3_from(run->container + 3);
+    return (line_bridle){v3_axpy(v3_from(run->container), since, v), v, v3_zero()};
+}
+
+// How the line begins that the rocket, the only one, pulls.
+static ld_status begin_line(ld_run *run, free_flight *job)
+{
+    const ld_line *given = &run->launch.rocket->line;
+    const ld_rocket_summary *rocket = &run->summary.rocket[0];
+    const launching_phase *phase = &run->launch.phase;
+    if (!given->present)
+        return LD_OK;
+    job->container = v3_from(run->container);
+    if (given->container_on == LD_LINE_ON_LAUNCHER) {
+        bool by_time = model_base_goes_by_time(run->launch.model);
+        job->carried = by_time ? carried_by_time : carried_steadily;
+        job->carrier = run;
+    }
+    if (phase->line == LINE_SLACK)
+        return ld_fail(
+            &run->error, LD_ERR_LAUNCH,
+            "rocket.line.slack: the rocket leaves its guide before it has drawn the line "
+            "taut");
+    if (phase->line == LINE_BROKEN)
+        job->broken = (line_break){phase->line_out, rocket->t_ignition + rocket->line.t_break,
+                                   v3_from(rocket->line.broken)};
+    return LD_OK;
+}
+
 // Flies rocket i from the state in which it left its tube.
 static ld_status fly(ld_run *run, int i)
 {
@@ -101,12 +153,13 @@ static ld_status fly(ld_run *run, int i)
         .t_end = run->t_end,
         .launch_x = run->point[i][0],
         .launch_z = run->point[i][1],
-        .container = v3_from(run->container),
         .options = &run->options,
         .row = rows ? write_flight_row : NULL,
         .self = run,
     };
-    ld_status status = rows ? begin_flight_rows(run, i) : LD_OK;
+    ld_status status = begin_line(run, &job);
+    if (!status && rows)
+        status = begin_flight_rows(run, i);
     if (!status)
         status = free_flight_run(&job, state, rocket, &run->summary, &run->error);
     return status;

@@ -73,7 +73,7 @@ struct ld_run {
     double t_measured;                    // [s] where the last step ended
     measure_window measure[LD_MAX_TAKEN]; // of the rocket that is in its tube
     double point[LD_MAX_FIRINGS][2];      // [m] x and z of the rear adaptors at their ignition
-    double container[3];                  // [m] in I: where a line left its own at the exit
+    double container[6];                  // [m], [m/s] in I: of a line, at the exit
     flight_system flight;                 // of the rocket that flies now
     quantity_columns flight_columns;      // its, where rows are requested
     double cpu, cpu_output;               // [s] spent in all; of it on rows and their sink

@@ -14,14 +14,18 @@
 #include "systems/launching/launching_figures.h"
 #include "systems/launching/launching_kinematics.h"
 
-// The container of a line stays where it is at the exit.
+// Where the container of a line is at the exit, and how it goes.
 static void record_container(ld_run *run, const base_frame *base)
 {
     const ld_line *line = &run->launch.rocket->line;
-    v3 at = v3_from(line->container);
-    if (line->container_on == LD_LINE_ON_LAUNCHER)
-        at = v3_add(base->r, m3_apply(base->A, at));
+    v3 at = v3_from(line->container), v = v3_zero();
+    if (line->container_on == LD_LINE_ON_LAUNCHER) {
+        v3 arm = m3_apply(base->A, at);
+        at = v3_add(base->r, arm);
+        v = v3_add(base->v, v3_cross(base->w, arm));
+    }
     v3_store(run->container, at);
+    v3_store(run->container + 3, v);
 }
 
 void launch_record_exit(ld_run *run, double t, const double *landed)

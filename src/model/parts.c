@@ -97,6 +97,11 @@ bool model_base_is_external(const ld_model *model)
     return model->base.kind == LD_BASE_EXTERNAL;
 }
 
+bool model_base_goes_by_time(const ld_model *model)
+{
+    return model->base.kind == LD_BASE_FIXED || model->base.kind == LD_BASE_PRESCRIBED;
+}
+
 void model_make_base_external(ld_model *model)
 {
     model->base.kind = LD_BASE_EXTERNAL;

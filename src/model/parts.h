@@ -32,6 +32,8 @@ bool model_has_launcher(const ld_model *model);
 // Whether the base is externally driven; makes it one that is.
 bool model_base_is_external(const ld_model *model);
 void model_make_base_external(ld_model *model);
+// Whether the motion of the base is a function of time alone.
+bool model_base_goes_by_time(const ld_model *model);
 // Whether the base is a vehicle, which has wheels, hinges and tubes beside the one that launches.
 bool model_has_vehicle(const ld_model *model);
 // The vehicle's hinges from the chassis on: azimuth, where it has one, and elevation.

@@ -206,13 +206,15 @@ static const quantity line_pulled[] = {
     {"line.paid_out", "m", "unstretched length that has left the container", ROCKET(line.paid_out), KEPT, LINE("line paid out, remaining", "m", 1, 2)},
     {"line.remaining", "m", "length that is in the container still", ROCKET(line.remaining), KEPT, BESIDE(1)},
     {"line.t_end", "s", "all of the line is out", ROCKET(line.t_end), KEPT},
+    {"line.reach", "m", "at the end, greatest horizontal distance from the container of the part that hangs on it", ROCKET(line.reach), KEPT, LINE("reach of the line", "m", 1, 2)},
+    {"line.t_rest", "s", "the line rests, after the landing", ROCKET(line.t_rest), KEPT},
+};
+static const quantity line_broken[] = {
     {"line.t_break", "s", "the line breaks", ROCKET(line.t_break), KEPT},
     {"line.broken.x", "m", "where it breaks, in I", ROCKET(line.broken[0]), "line.broken.position[]"},
     {"line.broken.y", "m", "where it breaks, in I", ROCKET(line.broken[1]), "line.broken.position[]"},
     {"line.broken.z", "m", "where it breaks, in I", ROCKET(line.broken[2]), "line.broken.position[]"},
     {"line.broken.at", "m", "length from the rocket to there", ROCKET(line.broken_at), KEPT},
-    {"line.reach", "m", "at the end, greatest horizontal distance from the container of the part that hangs on it", ROCKET(line.reach), KEPT, LINE("reach of the line", "m", 1, 2)},
-    {"line.t_rest", "s", "the line rests, after the landing", ROCKET(line.t_rest), KEPT},
 };
 #define LYING(member) .at = QUANTITY_OF_EACH(ld_rocket_summary, line.place, member)
 static const quantity line_places[] = {
@@ -285,6 +287,7 @@ static const quantity_group rocket_groups[] = {
     {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
     {.title = "of each canopy", .each = EACH_CANOPY, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(canopies)},
     {.title = "line that the rocket pulls", .each = EACH_LINE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(line_pulled)},
+    {.title = "where the line breaks", .each = EACH_LINE, QUANTITY_ROWS(line_broken)},
     {.title = "places of the line", .each = EACH_LINE_PLACE, .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(line_places)},
     {.title = "state at the end of the flight", .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(final)},
     {.title = "the same on a round or WGS 84 Earth", .where = QUANTITY_AT(ld_rocket_summary, final.earth), QUANTITY_ROWS(final_on_earth)},

@@ -355,6 +355,24 @@ static void describe_air(FILE *stream, const ld_model *model)
                 METRES(model->rocket.aerodynamics.emerged.nose));
 }
 
+static void describe_line(FILE *stream, const ld_model *model)
+{
+    const ld_line *line = &model->rocket.line;
+    if (!line->present)
+        return;
+    bool carried = line->container_on == LD_LINE_ON_LAUNCHER;
+    fprintf(stream, "# line: %s of %.4g g/m, out of a container on the %s", METRES(line->length),
+            1e3 * line->mass_per_length, carried ? "launcher" : "ground");
+    if (line->slack > 0)
+        fprintf(stream, ", %s of it slack", METRES(line->slack));
+    if (!isnan(line->breaking_force))
+        fprintf(stream, "; it breaks at %s", NEWTONS(line->breaking_force));
+    fputc('\n', stream);
+    if (carried && !model_base_goes_by_time(model))
+        fprintf(stream, "#   after the exit the container goes on with the velocity that it had "
+                        "there\n");
+}
+
 void ld_model_describe(const ld_model *model, FILE *stream)
 {
     if (!model_has_launcher(model))
@@ -367,5 +385,6 @@ void ld_model_describe(const ld_model *model, FILE *stream)
     describe_rocket(stream, model);
     describe_drive(stream, model);
     describe_air(stream, model);
+    describe_line(stream, model);
     numeric_locale_leave(before);
 }

@@ -22,6 +22,7 @@ event_list events_of(const launch_state *self, bool base)
     add(&list, EVENT_SURFACE, by_touch || self->course ? adaptors * surfaces : 0);
     add(&list, EVENT_BASE, base ? self->launcher.base.event_count : 0);
     add(&list, EVENT_BREECH, 1);
+    add(&list, EVENT_LINE, self->rocket->line.present);
     add(&list, EVENT_STOP, LD_SLIDE_STOPS * model_slide_count(self->model));
     add(&list, EVENT_STATION, self->course ? adaptors : 0);
     return list;
@@ -143,6 +144,8 @@ static double value_of(event one, const launch_state *self, const launcher_outpu
     }
     case EVENT_BREECH: // the rear adaptor is at s
         return touching && !phase->locked ? (phase->breech - adaptor[0].s) / 1e-3 : away;
+    case EVENT_LINE:
+        return out->launching.line_left;
     case EVENT_STATION:
         return phase->passed[one.index] || !launch_is_ignited(self)
                    ? away

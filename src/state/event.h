@@ -12,6 +12,7 @@ typedef enum event_kind {
     EVENT_SURFACE, // an adaptor a surface, index = adaptor * surfaces + surface (the same)
     EVENT_BASE,    // number `index` of the base (integrated together alone)
     EVENT_BREECH,  // the rocket touches the breech (law lankarani-nikravesh alone)
+    EVENT_LINE,    // a line that the rocket pulls becomes taut, or breaks
     EVENT_STOP,    // a stop of a recoil slide begins or ends to push, index = 2 slide + stop
     EVENT_STATION, // adaptor `index` passes into the tube's next element (with a course alone)
 } event_kind;
@@ -22,7 +23,7 @@ typedef struct event {
 } event;
 
 enum {
-    EVENTS_MOST = 2 + LD_MAX_ADAPTORS * (2 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
+    EVENTS_MOST = 3 + LD_MAX_ADAPTORS * (2 + LD_MAX_SURFACES) + BASE_MOST_EVENTS +
                   LD_SLIDE_STOPS * LD_MAX_SUPPORTS
 };
 

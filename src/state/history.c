@@ -268,7 +268,7 @@ static const quantity energies[] = {
 };
 static const quantity drawn[] = {
     {"line.tension", "N", "pull of the line on the rocket", AT(out.launching.line_tension)},
-    {"line.paid_out", "m", "length from container to bridle", AT(out.launching.line_paid)},
+    {"line.paid_out", "m", "length that has left the container", AT(out.launching.line_paid)},
 };
 static const quantity blown[] = {
     {"guide_wind.x", "N", "force of the wind on the guide, along x of R", AT(out.launching.guide_wind.x)},

@@ -7,9 +7,8 @@
 
 #include "launchdyn/scenario.h"
 
-// The words for an example with changes.
-static void check_words(const char *example, const char *const *sets, size_t count,
-                        const char *expected)
+// The words for an example with changes, to be freed.
+static char *words_for(const char *example, const char *const *sets, size_t count)
 {
     char file[512], *text = NULL;
     size_t length;
@@ -23,9 +22,16 @@ static void check_words(const char *example, const char *const *sets, size_t cou
     FILE *stream = open_memstream(&text, &length);
     ld_model_describe(model, stream);
     fclose(stream);
+    ld_model_free(model);
+    return text;
+}
+
+static void check_words(const char *example, const char *const *sets, size_t count,
+                        const char *expected)
+{
+    char *text = words_for(example, sets, count);
     assert_string_equal(text, expected);
     free(text);
-    ld_model_free(model);
 }
 
 #define GUIDE                                                                                      \
@@ -117,6 +123,36 @@ static void test_air(void **state)
         "air: on the whole rocket on its tower, from the start on\n");
 }
 
+static void test_line(void **state)
+{
+    (void)state;
+    const char *sets[] = {
+        "rocket.line={length: 250 m, mass_per_length: 8 g/m, diameter: 4 mm, stiffness: 10 kN, "
+        "slack: 0.4 m, breaking_force: 2 kN, container_on: launcher}",
+        "tubes.layout={rows: 1, columns: 1}", "firing=[{tube: 1, at: 0 s}]"};
+    const char *const words =
+        "# line: 250 m of 8 g/m, out of a container on the launcher, 0.4 m of "
+        "it slack; it breaks at 2 kN\n";
+    for (int i = 0; i < 2; i++) {
+        char *text = words_for(i ? "examples/reference.yaml" : "examples/ship.yaml", sets, 3);
+        const char *line = strstr(text, "# line: ");
+        assert_non_null(line);
+        assert_int_equal(strncmp(line, words, strlen(words)), 0);
+        assert_string_equal(
+            line + strlen(words),
+            i ? "#   after the exit the container goes on with the velocity that it "
+                "had there\n"
+              : "");
+        free(text);
+    }
+    sets[0] =
+        "rocket.line={length: 250 m, mass_per_length: 8 g/m, diameter: 4 mm, stiffness: 10 kN}";
+    char *text = words_for("examples/reference.yaml", sets, 3);
+    assert_non_null(strstr(text, "# line: 250 m of 8 g/m, out of a container on the ground\n"));
+    assert_null(strstr(text, "after the exit"));
+    free(text);
+}
+
 static void test_planes(void **state)
 {
     (void)state;
@@ -157,7 +193,8 @@ static void test_pressure(void **state)
         "# supports: springs at 0.1 m, springs at 0.8 m\n"
         "# rocket: 4 kg, from 0.1 m, on adaptors rear (0 m, clearance 0.2 mm), front (0.3 m, 0.2 "
         "mm)\n"
-        "# drive: 12 l of gas at 1 MPa against 100 kPa; no lock\n");
+        "# drive: 12 l of gas at 1 MPa against 100 kPa; no lock\n"
+        "# line: 250 m of 8 g/m, out of a container on the launcher; it breaks at 2 kN\n");
     check_words("examples/spin-rig.yaml", NULL, 0,
                 "# base: fixed; launcher 10 deg up\n# guide: a bore, 2 m long\n#   from 0 m: bore "
                 "radius 20 mm, wall 18 mm, EI 317.5 kN.m2, GJ 244.2 kN.m2, 25.75 kg/m\n#   from 1 "
@@ -188,9 +225,10 @@ static void test_flight_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bore),   cmocka_unit_test(test_surfaces),
-        cmocka_unit_test(test_air),    cmocka_unit_test(test_planes),
-        cmocka_unit_test(test_clamps), cmocka_unit_test(test_pressure),
-        cmocka_unit_test(test_bases),  cmocka_unit_test(test_flight_alone)};
+        cmocka_unit_test(test_bore),        cmocka_unit_test(test_surfaces),
+        cmocka_unit_test(test_air),         cmocka_unit_test(test_line),
+        cmocka_unit_test(test_planes),      cmocka_unit_test(test_clamps),
+        cmocka_unit_test(test_pressure),    cmocka_unit_test(test_bases),
+        cmocka_unit_test(test_flight_alone)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

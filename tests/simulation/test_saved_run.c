@@ -77,6 +77,8 @@ static const struct saved_case {
       "rocket.contact={law: ideal, friction: 0}",
       "rocket.adaptors=[{name: rear, at: 0 m}, {name: front, at: 1.9 m}]",
       "tubes.loads=[{at: 0.2 m}, {at: 1 m}]", "tubes.modes.cut=900 Hz",
+      "rocket.line={length: 90 m, mass_per_length: 30 g/m, diameter: 4 mm, stiffness: 20 kN, "
+      "slack: 0.3 m, breaking_force: 250 N, container_on: launcher, container: -0.4 0 0 m}",
       "run={lead_in: 20 ms, output_step: {tube: 0.5 ms}}"},
      0},
     {"pressure",

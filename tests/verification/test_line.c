@@ -58,7 +58,8 @@ static void test_steady(void **state)
                            .segments = 25};
     const double density[] = {0, 1.3}, v = 70;
     for (int i = 0; i < 2; i++) {
-        const line_setting setting = {&given, still, still, -INFINITY, dense, &density[i]};
+        const line_setting setting = {
+            .given = &given, .ground = -INFINITY, .air = dense, .self = &density[i]};
         line_bridle begin = steadily(0);
         flight_line *line = line_create(&setting, 0, &begin);
         follow(line, steadily, 1.5);
@@ -137,7 +138,7 @@ static void test_momentum_and_energy(void **state)
                                .breaking_force = NAN,
                                .tension = 5,
                                .segments = i ? 80 : 40};
-        const line_setting setting = {&given, still, still, -INFINITY, NULL, NULL};
+        const line_setting setting = {.given = &given, .ground = -INFINITY};
         line_bridle end = winding(0);
         flight_line *line = line_create(&setting, 0, &end);
         follow(line, winding, 0.2);
@@ -237,7 +238,11 @@ static void test_catenary(void **state)
                                .drag_across = 1.2,
                                .drag_along = 0.5,
                                .segments = 6 << i};
-        const line_setting setting = {&given, still, {0, -g, 0}, -INFINITY, dense, &density};
+        const line_setting setting = {.given = &given,
+                                      .gravity = {0, -g, 0},
+                                      .ground = -INFINITY,
+                                      .air = dense,
+                                      .self = &density};
         line_bridle begin = out_and_back(0);
         flight_line *line = line_create(&setting, 0, &begin);
         follow(line, out_and_back, 80);
@@ -268,7 +273,7 @@ static void test_ends(void **state)
                                .breaking_force = end == LD_LINE_HELD ? 900 : NAN,
                                .end = (ld_line_end)end,
                                .segments = 20};
-        const line_setting setting = {&given, still, still, -INFINITY, NULL, NULL};
+        const line_setting setting = {.given = &given, .ground = -INFINITY};
         line_bridle begin = steadily(0);
         flight_line *line = line_create(&setting, 0, &begin);
         follow(line, steadily, 1.2);

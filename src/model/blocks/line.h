@@ -6,8 +6,7 @@
 
 /// The end of the line in its container: held there, or free to leave it.
 typedef enum ld_line_end { LD_LINE_HELD, LD_LINE_FREE } ld_line_end;
-/// What the container stands on: axes I, or axes T of the (first) tube, with which it moves up to
-/// the exit.
+/// What the container stands on: axes I, or axes T of the (first) tube, with which it moves.
 typedef enum ld_line_container { LD_LINE_ON_GROUND, LD_LINE_ON_LAUNCHER } ld_line_container;
 
 /// Most segments.
@@ -28,6 +27,7 @@ typedef struct ld_line {
     double container[3];    ///< [m] where the line leaves it
     ld_line_container container_on;
     double tension; ///< [N] with which the container holds what leaves it
+    double slack;   ///< [m] out of it at the start beyond the way to the bridle
     ld_line_end end;
     int segments; ///< of the whole length
 } ld_line;

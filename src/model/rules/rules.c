@@ -809,6 +809,12 @@ static void line_rules(const rule_set *rules)
     if (one->container_on == LD_LINE_ON_LAUNCHER && !model_has_launcher(model))
         report_broken(rules, "rocket.line.container_on", 0,
                       "a flight alone has no launcher; give `container_on: ground`");
+    if (one->slack > 0 && !model_has_launcher(model))
+        report_broken(rules, "rocket.line.slack", 0,
+                      "a flight alone has no guide in which it would be drawn taut");
+    if (one->slack >= one->length)
+        report_broken(rules, "rocket.line.slack", 0, "%g m is not less than the line's %g m",
+                      one->slack, one->length);
     if (one->breaking_force <= one->tension)
         report_broken(rules, "rocket.line.tension", 0,
                       "%g N is not below the breaking force of %g N", one->tension,

@@ -92,12 +92,12 @@ static line_mouth mouth_of(const flight_line *self, const line_point *end, doubl
     line_mouth mouth = {.attached = self->cut != self->count &&
                                     !(self->ended && given->end == LD_LINE_FREE)};
     mouth.length = paid - self->count * segment_length(self);
-    v3 reach = v3_sub(end->r, self->setting.container);
+    v3 reach = v3_sub(end->r, self->hold.r);
     double distance = v3_norm(reach);
     if (!mouth.attached || distance == 0)
         return mouth;
     mouth.e = v3_scale(1 / distance, reach);
-    double speed = v3_dot(end->v, mouth.e), ratio = distance / mouth.length;
+    double speed = v3_dot(v3_sub(end->v, self->hold.v), mouth.e), ratio = distance / mouth.length;
     double elastic = given->stiffness * (ratio - 1), holds = given->tension;
     double damped = tension_of(given, ratio, speed);
     if (self->ended) {
@@ -128,7 +128,7 @@ static v3 mouth_load(const flight_line *self, const line_mouth *mouth, const mov
 {
     const ld_line *given = self->setting.given;
     v3 weight = v3_scale(given->mass_per_length * mouth->length, self->setting.gravity);
-    v3 drag = drag_of(given, air, v3_sub(end->r, self->setting.container), end->v, mouth->length);
+    v3 drag = drag_of(given, air, v3_sub(end->r, self->hold.r), end->v, mouth->length);
     return outer_part(mouth, v3_add(weight, drag));
 }
 
@@ -152,7 +152,7 @@ static v3 load_points(flight_line *self, const line_point *p, const line_bridle 
     int n = self->count;
     for (int i = 0; i < n; i++) {
         v3 before = i ? p[i - 1].r : end->r, v_before = i ? p[i - 1].v : end->v;
-        v3 after = i + 1 < n ? p[i + 1].r : self->setting.container;
+        v3 after = i + 1 < n ? p[i + 1].r : self->hold.r;
         bool last = i + 1 == n;
         double length = last ? 0.5 * d : d;
         work->mass[i] = last ? 0.5 * mass + given->mass_per_length * mouth->length : mass;
@@ -217,7 +217,7 @@ static void find_rates(flight_line *self, const line_point *p, double paid, cons
     *last = v3_add(*last, mouth_load(self, &mouth, &work->air[n - 1], &outer));
     double drawn = given->mass_per_length * mouth.rate;
     *last = v3_axpy(*last, mouth.drawn ? -given->tension : -mouth.tension, mouth.e);
-    *last = v3_axpy(*last, -drawn, outer.v);
+    *last = v3_axpy(*last, -drawn, v3_sub(outer.v, self->hold.v));
     note_tension(work, mouth.tension, n);
     for (int i = 0; i < n; i++)
         work->rates.point[i] = rates_of_point(self, &p[i], work->force[i], work->mass[i]);
@@ -238,6 +238,22 @@ static line_bridle bridle_after(const line_bridle *bridle, double t)
 {
     return (line_bridle){v3_axpy(v3_axpy(bridle->r, t, bridle->v), 0.5 * t * t, bridle->a),
                          v3_axpy(bridle->v, t, bridle->a), bridle->a};
+}
+
+// Puts the container where it is predicted to be, t after the beginning of a step.
+static void hold_after(flight_line *self, double t)
+{
+    if (!self->setting.carried)
+        return;
+    line_bridle now = bridle_after(&self->carried, t);
+    self->hold = (line_point){now.r, now.v};
+}
+
+static void carry(flight_line *self)
+{
+    if (self->setting.carried)
+        self->carried = self->setting.carried(self->setting.carrier, self->t);
+    hold_after(self, 0);
 }
 
 static void find_air(flight_line *self, const line_bridle *bridle)
@@ -275,6 +291,7 @@ static void runge_kutta(flight_line *self, double begun, double h, const line_br
         }
         double at = stage ? paid + ahead * work->rates.paid : paid;
         line_bridle end = bridle_after(bridle, self->t - begun + ahead);
+        hold_after(self, self->t - begun + ahead);
         find_rates(self, work->at, at, &end);
         for (int i = 0; i < n; i++) {
             line_point *sum = &work->sum[i], *dot = &work->rates.point[i];
@@ -298,7 +315,7 @@ static void runge_kutta(flight_line *self, double begun, double h, const line_br
 static void add_point(flight_line *self, const line_point *end)
 {
     double d = segment_length(self), length = self->paid - self->count * d;
-    v3 back = v3_sub(self->setting.container, end->r);
+    v3 back = v3_sub(self->hold.r, end->r);
     line_point *added = &self->point[self->count++];
     added->r = v3_axpy(end->r, d / length, back);
     added->v = end->v;
@@ -310,10 +327,9 @@ static void add_points(flight_line *self, const line_bridle *bridle)
     while (self->cut < 0 && !self->ended && self->paid - self->count * d > 1.5 * d) {
         line_point end =
             self->count ? self->point[self->count - 1] : (line_point){bridle->r, bridle->v};
+        v3 reach = v3_sub(end.r, self->hold.r), v = v3_sub(end.v, self->hold.v);
         if (!self->count) // only along the line: across, the container holds it
-            end.v = v3_scale(v3_dot(end.v, v3_sub(end.r, self->setting.container)) /
-                                 v3_norm2(v3_sub(end.r, self->setting.container)),
-                             v3_sub(end.r, self->setting.container));
+            end.v = v3_axpy(self->hold.v, v3_dot(v, reach) / v3_norm2(reach), reach);
         add_point(self, &end);
     }
 }
@@ -327,6 +343,12 @@ static void lay_down(flight_line *self)
         p->r.y = self->setting.ground;
         p->v = v3_zero();
     }
+}
+
+// A line without points breaks at the bridle, and lies between there and the container.
+static bool broke_short(const flight_line *self)
+{
+    return self->cut == 0 && self->count == 0;
 }
 
 // Length [m] along the line from the bridle to the middle of a segment.
@@ -351,7 +373,7 @@ static void watch_tensions(flight_line *self, const line_bridle *bridle)
         return;
     self->cut = self->work->tightest;
     self->t_broke = self->t;
-    self->broke_at = length_to(self, self->cut);
+    self->broke_at = self->count ? length_to(self, self->cut) : 0;
     self->broke = line_place(self, self->t, bridle->r, 1 - self->broke_at / self->paid);
     find_rates(self, self->point, self->paid, bridle);
     self->rate = self->work->rates.paid;
@@ -373,10 +395,10 @@ static double to_the_end(flight_line *self, double h)
 // [s] in which the direction of a line without points hardly turns.
 static double turning(const flight_line *self, const line_bridle *bridle)
 {
-    double distance = v3_norm(v3_sub(bridle->r, self->setting.container));
-    if (self->count)
+    double distance = v3_norm(v3_sub(bridle->r, self->hold.r));
+    if (self->count || self->cut == 0)
         return INFINITY;
-    return fmax(1e-5, 0.2 * distance / fmax(v3_norm(bridle->v), 1e-3));
+    return fmax(1e-5, 0.2 * distance / fmax(v3_norm(v3_sub(bridle->v, self->hold.v)), 1e-3));
 }
 
 void line_advance(flight_line *self, double to, const line_bridle *bridle)
@@ -384,8 +406,10 @@ void line_advance(flight_line *self, double to, const line_bridle *bridle)
     double begun = self->t, most = 0.8 * seconds_of_segment(self), spent = 0;
     self->middle = 0.5 * (begun + to);
     self->mean = self->slope = v3_zero();
+    carry(self);
     while (self->t < to) {
         line_bridle now = bridle_after(bridle, self->t - begun);
+        hold_after(self, self->t - begun);
         add_points(self, &now);
         find_air(self, &now);
         watch_tensions(self, &now);
@@ -399,6 +423,7 @@ void line_advance(flight_line *self, double to, const line_bridle *bridle)
             self->t = to;
     }
     // rounding leaves no slope in the shortest
+    hold_after(self, to - begun);
     double cube = spent > 1e-6 ? spent * spent * spent : INFINITY;
     self->mean = v3_scale(1 / spent, self->mean);
     self->slope = v3_scale(12 / cube, self->slope);
@@ -406,7 +431,8 @@ void line_advance(flight_line *self, double to, const line_bridle *bridle)
 
 // ---- begin, end, answers
 
-flight_line *line_create(const line_setting *setting, double t, const line_bridle *bridle)
+// At t, without anything out.
+static flight_line *create(const line_setting *setting, double t)
 {
     size_t most = (size_t)setting->given->segments + 1;
     flight_line *self = calloc(1, sizeof *self);
@@ -430,22 +456,51 @@ flight_line *line_create(const line_setting *setting, double t, const line_bridl
                         .mass = mass,
                         .force = force,
                         .air = air};
-    double distance = v3_norm(v3_sub(bridle->r, setting->container));
-    *self = (flight_line){
-        .setting = *setting,
-        .t = t,
-        .paid = fmin(setting->given->length,
-                     distance / (1 + setting->given->tension / setting->given->stiffness)),
-        .cut = -1,
-        .point = points,
-        .work = work,
-        .middle = t,
-        .t_ended = NAN,
-        .t_broke = NAN,
-        .broke_at = NAN,
-        .broke = {NAN, NAN, NAN}};
+    *self = (flight_line){.setting = *setting,
+                          .hold.r = setting->container,
+                          .t = t,
+                          .cut = -1,
+                          .point = points,
+                          .work = work,
+                          .middle = t,
+                          .t_ended = NAN,
+                          .t_broke = NAN,
+                          .broke_at = NAN,
+                          .broke = {NAN, NAN, NAN}};
+    carry(self);
+    return self;
+}
+
+flight_line *line_create(const line_setting *setting, double t, const line_bridle *bridle)
+{
+    const ld_line *given = setting->given;
+    flight_line *self = create(setting, t);
+    if (!self)
+        return NULL;
+    double distance = v3_norm(v3_sub(bridle->r, self->hold.r));
+    self->paid = fmin(given->length, distance / (1 + given->tension / given->stiffness));
     add_points(self, bridle);
     return self;
+}
+
+flight_line *line_create_broken(const line_setting *setting, double t, const line_break *broken)
+{
+    flight_line *self = create(setting, t);
+    if (!self)
+        return NULL;
+    self->paid = broken->paid;
+    self->cut = 0;
+    self->t_broke = broken->t;
+    self->broke_at = 0;
+    self->broke = broken->r;
+    self->t_greatest = NAN;
+    return self;
+}
+
+void line_hold_still(flight_line *self)
+{
+    self->setting.carried = NULL;
+    self->hold.v = v3_zero();
 }
 
 void line_free(flight_line *self)
@@ -472,6 +527,8 @@ double line_paid(const flight_line *self, double t)
 
 v3 line_place(const flight_line *self, double t, v3 bridle, double share)
 {
+    if (broke_short(self) && !isnan(self->broke.x))
+        return v3_axpy(self->hold.r, share, v3_sub(self->broke, self->hold.r));
     double d = segment_length(self), at = (1 - share) * self->paid;
     int i = (int)fmin(at / d, self->count);
     double length = i < self->count ? d : self->paid - self->count * d;
@@ -485,7 +542,7 @@ v3 line_place(const flight_line *self, double t, v3 bridle, double share)
         else if (point < self->count)
             ends[k] = v3_axpy(self->point[point].r, t - self->t, self->point[point].v);
         else
-            ends[k] = held ? self->setting.container : ends[0];
+            ends[k] = held ? self->hold.r : ends[0];
     }
     double part = length > 0 ? fmin(1, (at - i * d) / length) : 0;
     return v3_axpy(ends[0], part, v3_sub(ends[1], ends[0]));
@@ -493,9 +550,10 @@ v3 line_place(const flight_line *self, double t, v3 bridle, double share)
 
 double line_reach(const flight_line *self, v3 bridle)
 {
-    double reach = 0;
+    v3 left = broke_short(self) ? v3_sub(self->broke, self->hold.r) : v3_zero();
+    double reach = hypot(left.x, left.z);
     for (int i = self->cut < 0 ? -1 : self->cut; i < self->count; i++) {
-        v3 away = v3_sub(i < 0 ? bridle : self->point[i].r, self->setting.container);
+        v3 away = v3_sub(i < 0 ? bridle : self->point[i].r, self->hold.r);
         reach = fmax(reach, hypot(away.x, away.z));
     }
     return reach;

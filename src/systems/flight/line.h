@@ -12,7 +12,8 @@
 //   (m' (d/2 + L)) v' = F - T_c e - m' u v.
 // When it is 1.5 d long, d the length of a segment, a point is left 1 d behind the outer end, on
 // the line and as fast: mass, momentum and kinetic energy stay. The bridle moves as it is predicted
-// over a step: r + v t + a t^2/2.
+// over a step: r + v t + a t^2/2. So does a container that is carried: v is then that of the outer
+// end against it, the momentum m' u v what is added to the container's.
 #ifndef LD_SYSTEMS_FLIGHT_LINE_H
 #define LD_SYSTEMS_FLIGHT_LINE_H
 
@@ -20,17 +21,8 @@
 #include "math/vec3.h"
 #include "model/blocks/line.h"
 
-typedef struct line_setting {
-    const ld_line *given;
-    v3 container;  // [m]
-    v3 gravity;    // [m/s2]
-    double ground; // [m] its height y; -infinity: none
-    // The air at a point; NULL: none.
-    moving_air (*air)(const void *self, double t, v3 r);
-    const void *self;
-} line_setting;
-
-// A point that moves: of the line, or its bridle with the acceleration of its prediction.
+// A point that moves: of the line, or its bridle or container with the acceleration of its
+// prediction.
 typedef struct line_point {
     v3 r, v;
 } line_point;
@@ -38,14 +30,36 @@ typedef struct line_bridle {
     v3 r, v, a;
 } line_bridle;
 
+typedef struct line_setting {
+    const ld_line *given;
+    v3 container;  // [m] where it stands, unless it is carried
+    v3 gravity;    // [m/s2]
+    double ground; // [m] its height y; -infinity: none
+    // The air at a point; NULL: none.
+    moving_air (*air)(const void *self, double t, v3 r);
+    const void *self;
+    // Where what carries the container has it at t; NULL: it stands.
+    line_bridle (*carried)(const void *carrier, double t);
+    const void *carrier;
+} line_setting;
+
+// One that has broken at the bridle.
+typedef struct line_break {
+    double paid; // [m] of it was out; 0: it has not
+    double t;    // [s]
+    v3 r;        // [m] where that was
+} line_break;
+
 typedef struct flight_line {
     line_setting setting;
-    double t;    // [s] how far it has been computed
-    double paid; // [m] unstretched length that has left the container
-    double rate; // [m/s] at which it does
-    bool ended;  // all of it has
-    int cut;     // the segment that has broken, -1: none
-    int count;   // of points
+    line_bridle carried; // the container at the beginning of a step
+    line_point hold;     // it now
+    double t;            // [s] how far it has been computed
+    double paid;         // [m] unstretched length that has left the container
+    double rate;         // [m/s] at which it does
+    bool ended;          // all of it has
+    int cut;             // the segment that has broken, -1: none
+    int count;           // of points
     line_point *point;
     struct line_work *work;
     // the force on the rocket over the last step: mean + slope (t - middle)
@@ -60,10 +74,16 @@ typedef struct flight_line {
 // A straight line between container and bridle at t, drawn out as fast as the bridle moves.
 // @return NULL: no memory
 flight_line *line_create(const line_setting *setting, double t, const line_bridle *bridle);
+// What is left of a line that has broken before: it lies between the container, as that is now, and
+// where it broke.
+flight_line *line_create_broken(const line_setting *setting, double t, const line_break *broken);
 void line_free(flight_line *self);
 
 // The longest step that is allowed [s].
 double line_step(const flight_line *self);
+
+// The container stays where it is from now on.
+void line_hold_still(flight_line *self);
 
 // Continues to `to`, at most line_step later.
 void line_advance(flight_line *self, double to, const line_bridle *bridle);
