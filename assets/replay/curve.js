@@ -21,8 +21,27 @@ export function nodesOf({ stations, b, slope, torsion, modes }, q) {
   });
 }
 
+// The initial shape of a guide at a station: offsets u with their slopes, twist; rows of station, y, z, twist and their
+// derivatives, cubic between. Undefined where the guide is straight.
+export function initialOf(rows) {
+  if (rows.length < 2) return undefined;
+  return (x) => {
+    let k = 0, last = rows.length - 2;
+    for (let end = last + 1; end - k > 1;) {
+      const middle = (k + end) >> 1;
+      if (x < rows[middle][0]) end = middle; else k = middle;
+    }
+    const a = rows[Math.min(k, last)], b = rows[Math.min(k, last) + 1], h = b[0] - a[0], xi = (x - a[0]) / h;
+    const [y, z, twist] = [1, 2, 3].map((i) => {
+      const s = (b[i] - a[i]) / h, c = 3 * s - 2 * a[i + 3] - b[i + 3], e = a[i + 3] + b[i + 3] - 2 * s;
+      return [a[i] + h * xi * (a[i + 3] + xi * (c + xi * e)), a[i + 3] + xi * (2 * c + 3 * xi * e)];
+    });
+    return { u: [y[0], z[0]], slope: [y[1], z[1]], twist: twist[0] };
+  };
+}
+
 // Point and axes at any station by the elements' own cubics; straight on beyond the ends.
-export function sectionOf(nodes, x) {
+export function sectionOf(nodes, x, initial) {
   const last = nodes.length - 2, length = nodes.at(-1).x;
   let k = Math.min(last, Math.max(0, Math.floor((x / length) * (last + 1))));
   while (k > 0 && x < nodes[k].x) k--;
@@ -31,7 +50,9 @@ export function sectionOf(nodes, x) {
   const xi = (inside - a.x) / h, beyond = x - inside;
   const H = [1 + xi * xi * (2 * xi - 3), h * xi * (1 + xi * (xi - 2)), xi * xi * (3 - 2 * xi), h * xi * xi * (xi - 1)];
   const D = [(6 * xi * (xi - 1)) / h, 1 + xi * (3 * xi - 4), (6 * xi * (1 - xi)) / h, xi * (3 * xi - 2)];
-  const by = (f, i) => f[0] * a.u[i] + f[1] * a.slope[i] + f[2] * b.u[i] + f[3] * b.slope[i], slope = [by(D, 0), by(D, 1)];
-  return { P: [x, by(H, 0) + beyond * slope[0], by(H, 1) + beyond * slope[1]],
-    A: rotation([a.twist + xi * (b.twist - a.twist), -slope[1], slope[0]]) };
+  const by = (f, i) => f[0] * a.u[i] + f[1] * a.slope[i] + f[2] * b.u[i] + f[3] * b.slope[i];
+  const more = initial?.(inside) ?? { u: [0, 0], slope: [0, 0], twist: 0 };
+  const u = [by(H, 0) + more.u[0], by(H, 1) + more.u[1]], slope = [by(D, 0) + more.slope[0], by(D, 1) + more.slope[1]];
+  return { P: [x, u[0] + beyond * slope[0], u[1] + beyond * slope[1]],
+    A: rotation([a.twist + xi * (b.twist - a.twist) + more.twist, -slope[1], slope[0]]) };
 }

@@ -1,6 +1,6 @@
 // Where everything of a launcher is at an instant, from the columns of its history and its geometry.
 // Frames: I inertial, T undeformed launching tube (origin at its rear end, x along it), R tube.
-import { nodesOf, sectionOf, shapesOf } from "./curve.js";
+import { initialOf, nodesOf, sectionOf, shapesOf } from "./curve.js";
 import { hingesOf, rowsOf } from "./geometry.js";
 import { guideOf } from "./guide.js";
 import { followedIn, mechanismOf, placesOf } from "./mechanism.js";
@@ -30,6 +30,8 @@ export class Motion {
     const rows = (name) => rowsOf(geometry, name), single = (name) => rows(name)[0];
     this.shapes = shapesOf(rows, "tube");
     this.stations = this.shapes.stations;
+    this.initial = initialOf(rows("tube.initial_shape"));
+    this.bent = Math.max(0, ...rows("tube.initial_shape").map(([, y, z]) => Math.max(Math.abs(y), Math.abs(z))));
     this.length = this.stations.at(-1);
     this.guide = guideOf(rows, this.length);
     this.outer = this.guide.outer;
@@ -140,7 +142,7 @@ export class Motion {
 
   // Deflections in R at any station.
   section(state, x) {
-    return sectionOf(state.nodes, x);
+    return sectionOf(state.nodes, x, this.initial);
   }
 
   // How far a point y, z from the guide line is from its place in T on the undeformed tube; `section`: where.
@@ -158,7 +160,7 @@ export class Motion {
   // Where the guide's point at node k, y and z from the guide line, is drawn in T.
   drawnGuide(state, k, y, z, scale) {
     const node = state.nodes[k], [oy, oz] = this.guide.line;
-    const d = this.moved(state, node, y, z);
+    const d = this.moved(state, this.initial ? this.section(state, node.x) : node, y, z);
     return [node.x + d[0], oy + y + scale * d[1], oz + z + scale * d[2]];
   }
 

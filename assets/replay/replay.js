@@ -48,7 +48,7 @@ class Clock {
 
 // A round scale with which the largest deflection is drawn as a twelfth of the tube.
 function usualScale(motion) {
-  const most = Math.max(motion.largest("tip.y"), motion.largest("tip.z"));
+  const most = Math.max(motion.largest("tip.y"), motion.largest("tip.z"), motion.bent);
   const wanted = most > 0 ? motion.length / 12 / most : 1, power = 10 ** Math.floor(Math.log10(wanted));
   return Math.min(LARGEST, Math.max(1, [5, 2, 1].map((f) => f * power).find((s) => s <= wanted)));
 }

@@ -70,6 +70,8 @@ typedef struct scene_shapes {
     const double *station, *bending[2], *slope[2], *torsion, *axial;
     const double *q[SCENE_MODES]; // columns
     size_t stations, modes, nb, nt, na;
+    const double *initial; // [bends][7] OF.initial_shape, of a guide that is not straight
+    size_t bends;
 } scene_shapes;
 
 bool scene_find_shapes(const history_data *history, const char *of, const char *head,

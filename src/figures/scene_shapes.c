@@ -33,6 +33,9 @@ bool scene_find_shapes(const history_data *history, const char *of, const char *
     for (int plane = 0; plane < 2 && shapes->nb > 0; plane++)
         if (!shapes->bending[plane] || !shapes->slope[plane])
             return false;
+    shapes->initial = rows_of(history, of, "initial_shape", &shapes->bends, &columns);
+    if (shapes->bends < 2 || columns != 7)
+        shapes->bends = 0;
     shapes->modes = 2 * shapes->nb + shapes->nt + shapes->na;
     for (size_t i = 0; i < shapes->modes && i < SCENE_MODES; i++) {
         char name[GLB_NAME];
@@ -76,6 +79,34 @@ static scene_section node_at(const scene *self, const scene_shapes *shapes, size
     return sum;
 }
 
+// Cubic of values y, slopes d at the ends of an interval of length h; its slope in *slope.
+static double hermite(double h, double xi, const double y[2], const double d[2], double *slope)
+{
+    double s = (y[1] - y[0]) / h, c = 3 * s - 2 * d[0] - d[1], e = d[0] + d[1] - 2 * s;
+    *slope = d[0] + xi * (2 * c + 3 * xi * e);
+    return y[0] + h * xi * (d[0] + xi * (c + xi * e));
+}
+
+// Adds the initial shape at a station of the tube, `times` as large.
+static void add_initial(const scene_shapes *shapes, double x, double times, scene_section *at)
+{
+    size_t k = 0;
+    double value[3], slope[3];
+    if (shapes->bends == 0)
+        return;
+    while (k + 2 < shapes->bends && x > shapes->initial[7 * (k + 1)])
+        k++;
+    const double *a = shapes->initial + 7 * k, *b = a + 7;
+    for (int i = 0; i < 3; i++)
+        value[i] = hermite(b[0] - a[0], (x - a[0]) / (b[0] - a[0]), (double[]){a[1 + i], b[1 + i]},
+                           (double[]){a[4 + i], b[4 + i]}, &slope[i]);
+    for (int i = 0; i < 2; i++) {
+        at->u[i] += times * value[i];
+        at->slope[i] += times * slope[i];
+    }
+    at->twist += times * value[2];
+}
+
 // Beyond the ends the axis goes on straight.
 scene_section scene_section_at(const scene *self, const scene_shapes *shapes, size_t row, double x)
 {
@@ -87,15 +118,12 @@ scene_section scene_section_at(const scene *self, const scene_shapes *shapes, si
     at = (scene_section){.x = x,
                          .twist = a.twist + xi * (b.twist - a.twist),
                          .stretch = a.stretch + xi * (b.stretch - a.stretch)};
-    for (int i = 0; i < 2; i++) {
-        double d = (b.u[i] - a.u[i]) / h;
-        at.slope[i] = a.slope[i] + xi * (6 * d - 4 * a.slope[i] - 2 * b.slope[i] +
-                                         3 * xi * (a.slope[i] + b.slope[i] - 2 * d));
-        at.u[i] = a.u[i] + h * xi *
-                               (a.slope[i] + xi * (3 * d - 2 * a.slope[i] - b.slope[i] +
-                                                   xi * (a.slope[i] + b.slope[i] - 2 * d)));
+    for (int i = 0; i < 2; i++)
+        at.u[i] = hermite(h, xi, (double[]){a.u[i], b.u[i]}, (double[]){a.slope[i], b.slope[i]},
+                          &at.slope[i]);
+    add_initial(shapes, inside, self->magnify, &at);
+    for (int i = 0; i < 2; i++)
         at.u[i] += (x - inside) * at.slope[i];
-    }
     return at;
 }
 
@@ -136,23 +164,42 @@ static double largest(const scene *self, const scene_shapes *shapes, size_t mode
     return most;
 }
 
-// How a mode, at `q`, moves the corners: the cross sections stay plane.
+// How a section that is `at`, q times, moves a corner: cross sections stay plane.
+static void displace_corner(const scene_section *at, double q, const float *corner, float *to)
+{
+    double y = (double)corner[1], z = (double)corner[2];
+    to[0] = (float)(q * (at->stretch - at->slope[0] * y - at->slope[1] * z));
+    to[1] = (float)(q * (at->u[0] - at->twist * z));
+    to[2] = (float)(q * (at->u[1] + at->twist * y));
+}
+
+// How a mode, at `q`, moves the corners.
 static void displace(const scene_shapes *shapes, const glb_shape *shape, size_t mode, double q,
                      float *to)
 {
     size_t each = shape->corners / shapes->stations;
     for (size_t i = 0; i < shape->corners; i++, to += 3) {
         scene_section at = mode_at(shapes, mode, i / each);
-        const float *corner = shape->corner + 3 * i;
-        double y = (double)corner[1], z = (double)corner[2];
-        to[0] = (float)(q * (at.stretch - at.slope[0] * y - at.slope[1] * z));
-        to[1] = (float)(q * (at.u[0] - at.twist * z));
-        to[2] = (float)(q * (at.u[1] + at.twist * y));
+        displace_corner(&at, q, shape->corner + 3 * i, to);
+    }
+}
+
+// The corners where the initial shape has them.
+static void displace_initially(const scene *self, const scene_shapes *shapes, glb_shape *shape)
+{
+    size_t each = shape->corners / shapes->stations;
+    for (size_t i = 0; shapes->bends > 0 && i < shape->corners; i++) {
+        scene_section at = {0};
+        float by[3], *corner = shape->corner + 3 * i;
+        add_initial(shapes, shapes->station[i / each], self->magnify, &at);
+        displace_corner(&at, 1, corner, by);
+        for (int k = 0; k < 3; k++)
+            corner[k] += by[k];
     }
 }
 
 // A drawing program takes weights from -1 to 1: a mode's displacement is that at its largest.
-static int bend(scene *self, const scene_shapes *shapes, const glb_shape *shape, int parent)
+static int bend(scene *self, const scene_shapes *shapes, glb_shape *shape, int parent)
 {
     size_t modes = shapes->modes, rows = self->launch.count, used = 0, each = 3 * shape->corners;
     float *moved = malloc((modes * each + 1) * sizeof *moved),
@@ -170,6 +217,7 @@ static int bend(scene *self, const scene_shapes *shapes, const glb_shape *shape,
     for (size_t i = 0; weight && i < rows * used; i++)
         weight[i] = (float)(shapes->q[mode[i % used]][self->launch.row[i / used]] / most[i % used]);
     int node = -1;
+    displace_initially(self, shapes, shape);
     if (moved && weight) {
         char name[GLB_NAME];
         snprintf(name, sizeof name, "%sbent", shapes->head); // below the node of its frame

@@ -224,10 +224,11 @@ static void add_base(geometry *all, const base_system *base)
 static size_t room_for(const ld_simulation *self)
 {
     const flexible_tube *tube = &self->launcher.launching.tube.flexible;
-    return geometry_shapes_room(tube) + 3 * LD_MAX_SECTIONS + 2 * LD_MAX_SECTIONS +
-           (1 + LD_CLAMPS) * LD_MAX_SUPPORTS + 5 * LD_MAX_SURFACES + 4 * LD_MAX_TUBES +
-           (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS + 3 * LD_MAX_WHEELS +
-           LD_MAX_AIR_SURFACES * (2 * (NOSE_STEPS + 1) + 7) + 20 +
+    return geometry_shapes_room(tube) +
+           geometry_initial_shape_room(self->launcher.launching.tube.initial) +
+           3 * LD_MAX_SECTIONS + 2 * LD_MAX_SECTIONS + (1 + LD_CLAMPS) * LD_MAX_SUPPORTS +
+           5 * LD_MAX_SURFACES + 4 * LD_MAX_TUBES + (1 + LD_MAX_FIRINGS) * LD_MAX_ADAPTORS +
+           3 * LD_MAX_WHEELS + LD_MAX_AIR_SURFACES * (2 * (NOSE_STEPS + 1) + 7) + 20 +
            geometry_mechanism_room(base_as_multibody(&self->launcher.base));
 }
 
@@ -240,6 +241,7 @@ ld_status simulation_geometry(const ld_simulation *self, const ld_sink *sink, ld
     if (!all.value)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the geometry");
     geometry_add_shapes(&all, "tube", &self->launcher.launching.tube.flexible);
+    geometry_add_initial_shape(&all, self->launcher.launching.tube.initial);
     add_tube(&all, model_tubes(self->model));
     add_guide(&all, model_tubes(self->model));
     add_layout(&all, model_tubes(self->model));

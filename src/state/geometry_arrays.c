@@ -86,6 +86,33 @@ void geometry_add_shapes(geometry *all, const char *of, const flexible_tube *tub
     }
 }
 
+enum { SHAPE_COLUMNS = 7 };
+
+size_t geometry_initial_shape_room(const initial_shape *shape)
+{
+    return shape ? SHAPE_COLUMNS * shape->of.points : 0;
+}
+
+void geometry_add_initial_shape(geometry *all, const initial_shape *shape)
+{
+    if (!shape)
+        return;
+    double *to = geometry_add(all, "tube.initial_shape", "m", shape->of.points, SHAPE_COLUMNS,
+                              "initial shape of the guide: station, y, z [m], twist [rad], their "
+                              "derivatives by the station; cubic between");
+    for (size_t i = 0; i < shape->of.points; i++, to += SHAPE_COLUMNS) {
+        initial_section at;
+        to[0] = shape->of.x[i];
+        initial_shape_at(shape, to[0], &at);
+        to[1] = at.P.y;
+        to[2] = at.P.z;
+        to[3] = at.th.x;
+        to[4] = at.P1.y;
+        to[5] = at.P1.z;
+        to[6] = at.th1.x;
+    }
+}
+
 void geometry_add_sections(geometry *all, const char *of, const ld_section *section, int count)
 {
     static const double PI = 3.14159265358979323846;

@@ -3,6 +3,7 @@
 #define LD_STATE_GEOMETRY_ARRAYS_H
 
 #include "elements/tube/flexible_tube.h"
+#include "elements/tube/initial_shape.h"
 #include "launchdyn/results.h"
 #include "model/model.h"
 #include "systems/mechanism/mechanism.h"
@@ -28,6 +29,9 @@ void geometry_add_row(geometry *all, const char *name, const char *unit, int cou
 void geometry_add_shapes(geometry *all, const char *of, const flexible_tube *tube);
 void geometry_add_sections(geometry *all, const char *of, const ld_section *section, int count);
 size_t geometry_shapes_room(const flexible_tube *tube);
+// The guide's initial shape, NULL where it is straight.
+void geometry_add_initial_shape(geometry *all, const initial_shape *shape);
+size_t geometry_initial_shape_room(const initial_shape *shape);
 
 // Bodies, beams, joints and force elements of a base of kind multibody; numbers that they take, 0
 // where there is none.

@@ -122,7 +122,7 @@ class Scenes(Case):
         self.assertLessEqual(np.max(np.abs(scene.weights)), 1)
         self.check_rocket(result, scene, at)
 
-    def check_rocket(self, result, scene, at):
+    def check_rocket(self, result, scene, at, turns=3e-4):
         inside = at[np.isfinite(result["rocket.s"][at])]
         r, A = scene.frame("rocket 1")
         pitch, yaw = np.arcsin(A[:, 1, 0]), np.arctan2(-A[:, 2, 0], A[:, 0, 0])
@@ -131,7 +131,18 @@ class Scenes(Case):
         velocity = np.gradient(r, result["t"][inside], axis=0)
         self.near("rocket's velocity by its places (relative)",
                   velocity[5:-5, 0] / result["rocket.vx"][inside][-1],
-                  result["rocket.vx"][inside][5:-5] / result["rocket.vx"][inside][-1], 3e-4)
+                  result["rocket.vx"][inside][5:-5] / result["rocket.vx"][inside][-1], turns)
+
+    def test_a_guide_that_is_not_straight(self):
+        result, scene = self.scene(ld.Scenario.read(FIXED, {"tubes.initial_shape": {
+            "offsets": [["0 m", "0 mm", "0 mm"], ["1.5 m", "0.4 mm", "-0.3 mm"],
+                        ["3 m", "1 mm", "0.5 mm"]]}}))
+        at = rows(result, scene)
+        (r, _), by = self.tip(scene), np.array([1e-3, 0.5e-3])
+        # the tube's roll turns the initial offset
+        self.near("deflection of a bent guide's tip [m]", r[:, 1:] - by,
+                  np.transpose([result["tip.y"][at], result["tip.z"][at]]), 1e-6)
+        self.check_rocket(result, scene, at, turns=1e-3)
 
     def test_magnified_deflections(self):
         result, scene = self.scene(ld.Scenario.read(FIXED), magnify=10)

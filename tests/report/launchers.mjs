@@ -122,7 +122,39 @@ async function checkSingleHinge(browser) {
   await close(page, "single-hinge");
 }
 
+// A rail that is not straight: bends, a step and a kink are drawn as much larger as deflections are.
+async function checkBentRail(browser) {
+  const { file, column } = runOf("rail/pad.yaml", "--set", "run.end=tip", "--set", "tubes.initial_shape={random: {deviation: 3 mm, terms: 4}," +
+    " joints: [{at: 2.6 m, step: 1 -0.5 mm, kink: 0.1 0 deg, length: 40 mm}]}");
+  const page = await open(browser, file), times = column.get("t"), wrong = [];
+  await page.evaluate(() => window.launchdyn.current.look("tube"));
+  for (const row of [3, 0.3, 0.6, 0.8].map((share) => (share > 1 ? share : Math.round(share * times.length)))) {
+    const shoes = await page.evaluate((t) => {
+      const replay = window.launchdyn.current, { stage } = replay, { motion } = stage;
+      replay.show(t, true);
+      return motion.adaptors.map((l) => {
+        const p = stage.state.rocket.point(l), at = motion.deflection(stage.state, p[0]);
+        return motion.guide.line.map((o, i) => p[i + 1] - o - at[i + 1]);
+      });
+    }, times[row]);
+    ["rear", "front"].forEach((name, i) => ["y", "z"].forEach((axis, k) =>
+      wrong.push(Math.abs(shoes[i][k] - column.get(`contact.${name}.${axis}`)[row]))));
+  }
+  const found = wrong.filter(Number.isFinite);
+  check("shoes are drawn where the results have them on the bent rail [m]", found.length > 8 && Math.max(...found) < 1e-6, found);
+  const drawn = await page.evaluate(() => {
+    const replay = window.launchdyn.current, { stage } = replay, { motion } = stage, [oy, oz] = motion.guide.line;
+    replay.setScale(50);
+    replay.show(replay.zero - 0.01, true);
+    const off = motion.stations.map((_, k) => motion.drawnGuide(stage.state, k, 0, 0, 50)).map(([, y, z]) => Math.hypot(y - oy, z - oz));
+    return { most: Math.max(...off), said: document.body.textContent.includes("50") };
+  });
+  check("bends of 3 mm are drawn 50 times as large [m]", drawn.most > 0.1 && drawn.most < 0.3 && drawn.said, drawn.most);
+  await close(page, "bent-rail");
+}
+
 await inBrowser(async (browser) => {
+  await checkBentRail(browser);
   await checkSingleHinge(browser);
   await checkErector(browser);
   await checkMast(browser);
