@@ -1,4 +1,4 @@
-// The page that simulates: fields of a scenario's main numbers, a worker that launches it, the report's scripts that show it.
+// The page that simulates: fields of a scenario's main numbers, a core that launches it, the report's scripts that show it.
 "use strict";
 (() => {
   const { show, element, download, inflated, themeSwitch } = window.launchdyn;
@@ -27,18 +27,40 @@
   ];
   const PATHS = FIELDS.map(([path]) => path);
 
-  const examples = JSON.parse(read("examples")); // {choices: [[name, title]], files: {name: text}}
+  const examples = JSON.parse(read("examples")); // {choices: [[name, title]], files: {name: text}, sets: what is set at first}
   let state = { text: "", sets: {}, files: {} }, given = []; // `given`: values of the fields without overrides
-  let shown = null, earlier = [], counted = 0, busy = true, waiting = null; // busy until the core is ready
+  let shown = null, earlier = [], counted = 0, waiting = null;
   let asked = "", kept = new Set(); // the state that was asked for last; those that stay as earlier runs
 
-  // ---- the worker ----
+  // ---- the core: in a worker, as WebAssembly, where the page has it inside, else behind the server that the page is from ----
 
-  const code = URL.createObjectURL(new Blob([read("worker")], { type: "text/javascript" }));
-  const worker = new Worker(code);
-  const wasm = inflated(read("core")).buffer;
-  worker.postMessage({ wasm }, [wasm]);
-  worker.onerror = ({ message }) => complain(`The core has stopped: ${message}. Reload the page.`);
+  function coreInWorker() {
+    const worker = new Worker(URL.createObjectURL(new Blob([read("worker")], { type: "text/javascript" })));
+    const wasm = inflated(read("core")).buffer;
+    worker.postMessage({ wasm }, [wasm]);
+    worker.onerror = ({ message }) => complain(`The core has stopped: ${message}. Reload the page.`);
+    worker.onmessage = ({ data }) => settle(data);
+    return (what) => worker.postMessage(what);
+  }
+
+  // Names and texts go, texts come, a zero after each.
+  async function askServer({ text, sets, paths, files, ...told }) {
+    const named = Object.entries(files).map(([name, content]) => [`file ${name}`, content]);
+    const body = [["text", text], ["sets", sets], ["paths", paths], ...named].flat().map((part) => `${part}\0`).join("");
+    const begun = performance.now();
+    try {
+      const response = await fetch("launch", { method: "POST", body });
+      const [status, messages, scenario, summary, data, values] = (await response.text()).split("\0");
+      if (!response.ok) throw new Error(status.trim());
+      settle({ ...told, took: performance.now() - begun, status: Number(status), messages, scenario, summary, data,
+        values: values ? values.split("\n") : [] });
+    } catch ({ message }) {
+      settle({ ...told, status: -1, messages: `launchdyn live has not answered: ${message}`, data: "", values: [] });
+    }
+  }
+
+  const within = document.getElementById("core") !== null, launch = within ? coreInWorker() : askServer;
+  let busy = within; // at first until the core is ready
 
   const setsOf = (sets) => Object.entries(sets).map(([path, value]) => `${path}=${value}`);
 
@@ -56,13 +78,13 @@
   function send(what) {
     busy = true;
     waiting = null;
-    worker.postMessage(what);
+    launch(what);
   }
-  worker.onmessage = ({ data }) => {
+  function settle(result) {
     busy = false;
     if (waiting) send(waiting);
-    if (!data.ready) take(data);
-  };
+    if (!result.ready) take(result);
+  }
 
   // ---- what a run came to ----
 
@@ -221,7 +243,7 @@
     ...examples.choices.map(([name, title]) => element("option", { value: name }, title)));
   const opened = element("input", { type: "file", multiple: true, accept: ".yaml,.yml,.csv,.eng,.txt,.rse", ariaLabel: "Scenario and its files",
     onchange: () => loadFiles(opened.files) });
-  document.getElementById("bench").append(
+  document.getElementById("report").before(element("section", { id: "bench" },
     element("div", { className: "bar" }, element("strong", {}, "launchdyn"), choice,
       button("As it was read", () => load(state.text, state.files), { title: "Take back what the fields have changed" }),
       button("Save as YAML", () => download("scenario.yaml", window.launchdyn.result?.scenario ?? state.text, "text/yaml"), { id: "save" }),
@@ -230,6 +252,6 @@
     fields,
     element("details", { className: "text" }, element("summary", {}, "Scenario: write, paste, open or drop one here, with the files that it names"),
       editor, element("div", { className: "bar" }, button("Launch", () => load(editor.value, state.files), { id: "launch" }), opened)),
-    messages);
-  loadShared().then((found) => found || load(examples.files[examples.choices[0][0]]));
+    messages));
+  loadShared().then((found) => found || load(examples.files[examples.choices[0][0]], {}, examples.sets));
 })();

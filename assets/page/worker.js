@@ -14,8 +14,10 @@ function simulate({ text, sets, files, paths }) {
 self.onmessage = async ({ data }) => {
   if (data.wasm) {
     const module = await self.launchdynCore({ wasmBinary: data.wasm });
-    core = { module, run: module.cwrap("page_run", "number", ["string", "string"]), text: module.cwrap("page_text", "string", ["number"]),
-      values: module.cwrap("page_values", "number", ["string", "string", "string"]) };
+    const page = module.cwrap("page_new", "number", ["string"])("/");
+    const call = (name, result, ...types) => module.cwrap(name, result, ["number", ...types]).bind(null, page);
+    core = { module, run: call("page_run", "number", "string", "string"), text: call("page_text", "string", "number"),
+      values: call("page_values", "number", "string", "string", "string") };
     self.postMessage({ ready: true });
   } else {
     self.postMessage({ number: data.number, key: data.key, label: data.label, ...simulate(data) });

@@ -10,6 +10,7 @@
 #include "launchdyn/fit.h"
 #include "launchdyn/fmu.h"
 #include "launchdyn/history.h"
+#include "launchdyn/live.h"
 #include "launchdyn/loop.h"
 #include "launchdyn/model.h"
 #include "launchdyn/mstmm.h"

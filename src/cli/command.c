@@ -8,8 +8,8 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "cli/help.h"
 #include "cli/progress.h"
+#include "cli/words/help.h"
 #include "launchdyn/child.h"
 
 void command_complain(const char *format, ...)

@@ -6,8 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cli/help.h"
-#include "cli/options.h"
+#include "cli/words/help.h"
+#include "cli/words/options.h"
 #include "launchdyn/model.h"
 #include "launchdyn/origin.h"
 #include "launchdyn/scenario.h"
@@ -44,6 +44,7 @@ int command_run(const command *self, int argc, char **argv);
 int command_study(const command *self, int argc, char **argv);
 int command_new(const command *self, int argc, char **argv);
 int command_check(const command *self, int argc, char **argv);
+int command_live(const command *self, int argc, char **argv);
 int command_modes(const command *self, int argc, char **argv);
 int command_fit(const command *self, int argc, char **argv);
 int command_optimise(const command *self, int argc, char **argv);

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/complete.h"
-#include "cli/page.h"
+#include "cli/words/complete.h"
+#include "cli/words/page.h"
 #include "launchdyn/version.h"
 
 static int command_help(const command *self, int argc, char **argv);
@@ -32,6 +32,18 @@ static const command commands[] = {
                  "launchdyn run scenario.yaml --set rocket.mass='61 kg'|With another mass\n"
                  "launchdyn run --again out --out again|Repeat the run stored in out",
      .run = command_run,
+     .in_child = true},
+    {.name = "live",
+     .arguments = "FILE",
+     .words = 1,
+     .summary = "Serve a page that simulates to a browser of this machine",
+     .about = "Prints the address of a page with sliders for the scenario's main numbers, replay "
+              "and plots. "
+              "launchdyn computes each launch. The address is on this machine alone and "
+              "has a random token, without which nothing is answered. Launches open no file "
+              "outside the folder of FILE. Ctrl-C ends. libcivetweb is required.",
+     .examples = "launchdyn live scenario.yaml|Print an address to open in a browser",
+     .run = command_live,
      .in_child = true},
     {.name = "study",
      .arguments = "FILE | show DIR | plot DIR | export DIR | merge DIR",

@@ -8,7 +8,7 @@
 #include "base/memory_stream.h"
 #include "base/random.h"
 #include "cli/command.h"
-#include "cli/page.h"
+#include "cli/words/page.h"
 #include "cli/progress.h"
 #include "cli/study.h"
 #include "launchdyn/scenario.h"

@@ -11,13 +11,14 @@
 // Data that grow beyond the bytes that a report may have are given up on the way.
 enum { REPORT_PATH_SIZE = 4096, REPORT_BYTES = 2000000 };
 
-// What assets/bundle holds for one kind of report, built in.
+// What assets/bundle holds for one kind of page, built in.
 typedef struct report_bundle {
     const unsigned char *script, *style, *policy;
     size_t script_size, style_size, policy_size;
 } report_bundle;
 
 extern const report_bundle run_bundle, runs_bundle, study_bundle;
+extern const report_bundle page_bundle; // of the page that simulates, beside the script of a run
 
 // The script of the replay, which the script of a run's report unpacks and starts.
 extern const unsigned char replay_script[];

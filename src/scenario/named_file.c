@@ -32,6 +32,32 @@ static char *folder_of(scenario_reader *reader, const char *name)
     return pool_text(reader, name, slash == name ? 1 : slash ? (size_t)(slash - name) : 0);
 }
 
+// Whether a file lies in the folder or below, whatever links lead there; one that is not there
+// does.
+static bool lies_within(const char *folder, const char *file_name)
+{
+    char *outer = realpath(folder[0] ? folder : ".", NULL), *inner = realpath(file_name, NULL);
+    size_t length = outer ? strlen(outer) : 0;
+    length -= length == 1; // of "/"
+    bool within = !inner || (outer && strncmp(inner, outer, length) == 0 && inner[length] == '/');
+    free(outer);
+    free(inner);
+    return within;
+}
+
+// Whether a file may be opened: files of a source that is confined lie within its folder. False
+// after a message.
+static bool may_open(scenario_reader *reader, text_place place, const char *path,
+                     const char *file_name)
+{
+    const ld_source *source = reader->source;
+    if (!source->confined || lies_within(source->folder, file_name))
+        return true;
+    reader_refuse(reader, place, path,
+                  "file \"%s\" lies outside the scenario's folder, expected one in it", file_name);
+    return false;
+}
+
 // A file's text, which it takes over: base64 in place of a mesh's bytes, as what a run keeps are
 // texts. NULL: no memory.
 static char *kept_text(char *text, size_t *length)
@@ -56,6 +82,8 @@ static const ld_source_file *read_file(scenario_reader *reader, text_place place
         reader_refuse(reader, place, path, "file \"%s\" is not among the stored texts", within);
         return NULL;
     }
+    if (!may_open(reader, place, path, file_name))
+        return NULL;
     ld_status status = text_file_read(file_name, READER_MAX_BYTES, &text, &length, &error);
     if (!status && !(text = kept_text(text, &length)))
         status = ld_fail(&error, LD_ERR_MEMORY, "cannot be read: no memory");
@@ -130,6 +158,8 @@ static const char *take_digest(scenario_reader *reader, text_place place, const 
 {
     const char *text = NULL;
     ld_error error;
+    if (!may_open(reader, place, path, file_name))
+        return NULL;
     ld_status status = digest_of(reader, file_name, &text, &error);
     reader->no_memory |= status == LD_ERR_MEMORY;
     reader->no_file |= status == LD_ERR_FILE;

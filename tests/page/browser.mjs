@@ -1,38 +1,13 @@
 // The page that simulates in a real browser; skipped (77) where it has not been built.
 import { existsSync, readFileSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { check, checkFits, checkInjected, checkNoneEmpty, drawn, example, folder, inBrowser, launchdyn, leave, open, picture,
-  runOf } from "../report/support.mjs";
+import { check, checkFits, checkInjected, checkNoneEmpty, example, folder, inBrowser, launchdyn, leave, open, picture } from "../report/support.mjs";
+import { after, checkWrong, field, same, setNumber, summaryOf } from "./page.mjs";
 
 const file = join(dirname(process.env.LD_COMMAND), "page/launchdyn.html");
 if (!existsSync(file)) {
   console.log("skipped: no page has been built (scripts/setup page, cmake --build build --target page)");
   process.exit(77);
-}
-
-// Waits for the run that follows what `act` does.
-async function after(page, act) {
-  const before = await page.evaluate(() => Number(document.documentElement.dataset.run ?? 0));
-  await act();
-  await page.waitForFunction((number) => Number(document.documentElement.dataset.run ?? 0) > number, before);
-  await drawn(page);
-}
-
-const rocketOf = (page) => page.evaluate(() => JSON.parse(window.launchdyn.result.summary).rockets[0]);
-const summaryOf = (name, ...options) => JSON.parse(readFileSync(join(runOf(name, ...options).out, "summary.json"), "utf8"));
-const field = (page, path, kind) => page.locator(`.field[data-path="${path}"] input[type="${kind}"]`);
-
-async function setNumber(page, path, value) {
-  await after(page, async () => {
-    await field(page, path, "number").fill(String(value));
-    await field(page, path, "number").dispatchEvent("change");
-  });
-}
-
-async function same(page, what, expected) {
-  const rocket = await rocketOf(page);
-  check(`${what}: the command's exit to the bit`, JSON.stringify(rocket) === JSON.stringify(expected.rockets[0]),
-    `exit speed ${rocket.exit_speed} m/s`);
 }
 
 // An example, a field, curves over each other, the same again from the address, the scenario saved.
@@ -81,14 +56,7 @@ async function checkAddress(browser, { address, heavy }) {
 // A wrong scenario, a file with one that it names, each written as a user would.
 async function checkScenarios(browser) {
   const page = await open(browser, file, { replay: false });
-  const wrong = readFileSync(example("fixed.yaml"), "utf8").replace("release_force: 5 kN", "release_force: 5 km");
-  await page.click("details.text summary");
-  await page.fill("#scenario", wrong);
-  await after(page, () => page.click("#launch"));
-  const shown = await page.textContent("#messages");
-  check("an error has its place, what was found and what is expected", /^scenario\.yaml:\d+:\d+: error: rocket\.lock\.release_force: /.test(shown), shown);
-  check("what was shown stays, without a time", (await page.$$(".figure")).length > 5 && await page.textContent("#took") === "");
-  check("it is none of the examples", await page.inputValue("#example") === "");
+  await checkWrong(page, readFileSync(example("fixed.yaml"), "utf8"));
   await after(page, () => page.setInputFiles("input[type=file]", [example("parachutes.yaml"), example("reference-aero.csv")]));
   check("then there is none", await page.isHidden("#messages"));
   const flown = await page.evaluate(() => JSON.parse(window.launchdyn.result.summary).rockets[0].flight.t_apogee);

@@ -17,8 +17,10 @@ process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
 
 const make = createRequire(import.meta.url)(join(build, "page/core.js"));
 const core = await make({ wasmBinary: readFileSync(join(build, "page/core.wasm")) });
-const run = core.cwrap("page_run", "number", ["string", "string"]), text = core.cwrap("page_text", "string", ["number"]);
-const writeCsv = core.cwrap("page_write_csv", "number", ["number", "string"]);
+const page = core.cwrap("page_new", "number", ["string"])("/");
+const call = (name, result, ...types) => core.cwrap(name, result, ["number", ...types]).bind(null, page);
+const run = call("page_run", "number", "string", "string"), text = call("page_text", "string", "number");
+const writeCsv = call("page_write_csv", "number", "number", "string");
 const MESSAGES = 0, SCENARIO = 1, SUMMARY = 2, DATA = 3;
 for (const name of readdirSync(examples))
   if (/\.(yaml|csv|eng)$/.test(name)) core.FS.writeFile(`/${name}`, readFileSync(join(examples, name)));

@@ -1,5 +1,4 @@
 // What the worker of the page that simulates calls, beside the files that the same run writes.
-// link: launchdyn_page
 #include "page/page.h"
 
 #include <string.h>
@@ -49,13 +48,13 @@ static void run_here(const char *const *sets, size_t count)
     ld_model_free(model);
 }
 
-static void check_columns(void)
+static void check_columns(const page_core *core)
 {
     char *written = text_of(in("run/history.csv"));
-    assert_int_equal(page_write_csv(0, in("page.csv")), LD_OK);
+    assert_int_equal(page_write_csv(core, 0, in("page.csv")), LD_OK);
     char *kept = text_of(in("page.csv"));
     assert_string_equal(kept, written);
-    assert_int_equal(page_write_csv(1, in("page.csv")), LD_ERR_INPUT); // none has flown
+    assert_int_equal(page_write_csv(core, 1, in("page.csv")), LD_ERR_INPUT); // none has flown
     free(kept);
     free(written);
 }
@@ -65,14 +64,16 @@ static void test_run(void **state)
     static const char *const set[] = {"rocket.mass=61 kg", "run.output_step=1 ms"};
     char sets[] = "rocket.mass=61 kg\nrun.output_step=1 ms\n";
     char *scenario = fixed();
+    page_core *core = page_new("/");
     (void)state;
     run_here(set, 2);
-    assert_int_equal(page_run(scenario, sets), LD_OK);
-    assert_string_equal(page_text(PAGE_MESSAGES), "");
-    check_columns();
-    assert_non_null(strstr(page_text(PAGE_SCENARIO), "mass: 61 kg"));
-    assert_non_null(strstr(page_text(PAGE_SUMMARY), "\"exit_speed\""));
-    assert_non_null(strstr(page_text(PAGE_DATA), "\"kind\":\"launch\""));
+    assert_int_equal(page_run(core, scenario, sets), LD_OK);
+    assert_string_equal(page_text(core, PAGE_MESSAGES), "");
+    check_columns(core);
+    assert_non_null(strstr(page_text(core, PAGE_SCENARIO), "mass: 61 kg"));
+    assert_non_null(strstr(page_text(core, PAGE_SUMMARY), "\"exit_speed\""));
+    assert_non_null(strstr(page_text(core, PAGE_DATA), "\"kind\":\"launch\""));
+    page_free(core);
     free(scenario);
 }
 
@@ -82,12 +83,14 @@ static void test_ended_early(void **state)
     static const char *const set[] = {"rocket.lock.release_force=50 kN", "run.output_step=20 ms"};
     char sets[] = "rocket.lock.release_force=50 kN\nrun.output_step=20 ms";
     char *scenario = fixed();
+    page_core *core = page_new("/");
     (void)state;
     run_here(set, 2);
-    assert_int_equal(page_run(scenario, sets), LD_ERR_LAUNCH);
-    printf("    %s", page_text(PAGE_MESSAGES));
-    assert_true(strlen(page_text(PAGE_MESSAGES)) > 20);
-    check_columns();
+    assert_int_equal(page_run(core, scenario, sets), LD_ERR_LAUNCH);
+    printf("    %s", page_text(core, PAGE_MESSAGES));
+    assert_true(strlen(page_text(core, PAGE_MESSAGES)) > 20);
+    check_columns(core);
+    page_free(core);
     free(scenario);
 }
 
@@ -95,13 +98,16 @@ static void test_wrong_scenario(void **state)
 {
     char none[] = "", wrong[] = "rocket.mas=61 kg";
     char *scenario = fixed();
+    page_core *core = page_new("/");
     (void)state;
-    assert_int_equal(page_run("launchdyn: 1\nbase: {kind: fixd}\n", none), LD_ERR_INPUT);
-    assert_non_null(strstr(page_text(PAGE_MESSAGES), "scenario.yaml:2:14: error: base.kind: "));
-    assert_string_equal(page_text(PAGE_SUMMARY), "");
-    assert_int_equal(page_write_csv(0, in("page.csv")), LD_ERR_INPUT);
-    assert_int_equal(page_run(scenario, wrong), LD_ERR_INPUT);
-    assert_non_null(strstr(page_text(PAGE_MESSAGES), "did you mean \"mass\"?"));
+    assert_int_equal(page_run(core, "launchdyn: 1\nbase: {kind: fixd}\n", none), LD_ERR_INPUT);
+    assert_non_null(
+        strstr(page_text(core, PAGE_MESSAGES), "scenario.yaml:2:14: error: base.kind: "));
+    assert_string_equal(page_text(core, PAGE_SUMMARY), "");
+    assert_int_equal(page_write_csv(core, 0, in("page.csv")), LD_ERR_INPUT);
+    assert_int_equal(page_run(core, scenario, wrong), LD_ERR_INPUT);
+    assert_non_null(strstr(page_text(core, PAGE_MESSAGES), "did you mean \"mass\"?"));
+    page_free(core);
     free(scenario);
 }
 
@@ -109,13 +115,16 @@ static void test_values(void **state)
 {
     char sets[] = "rocket.mass=61 kg";
     char *scenario = fixed();
+    page_core *core = page_new("/");
     (void)state;
     assert_int_equal(
-        page_values(scenario, sets, "rocket.mass\nbase.speed\nrocket.no_such\nbase.kind"), LD_OK);
-    assert_string_equal(page_text(PAGE_VALUES), "61 kg\n\n\nfixed\n");
+        page_values(core, scenario, sets, "rocket.mass\nbase.speed\nrocket.no_such\nbase.kind"),
+        LD_OK);
+    assert_string_equal(page_text(core, PAGE_VALUES), "61 kg\n\n\nfixed\n");
     char none[] = "";
-    assert_int_equal(page_values("launchdyn: 2\n", none, "rocket.mass"), LD_ERR_INPUT);
-    assert_non_null(strstr(page_text(PAGE_MESSAGES), "error: launchdyn: "));
+    assert_int_equal(page_values(core, "launchdyn: 2\n", none, "rocket.mass"), LD_ERR_INPUT);
+    assert_non_null(strstr(page_text(core, PAGE_MESSAGES), "error: launchdyn: "));
+    page_free(core);
     free(scenario);
 }
 

@@ -65,6 +65,8 @@ ld_source *source_copy(const ld_source *self)
 {
     ld_source *copy = source_new(self->name, self->folder);
     bool fine = copy != NULL;
+    if (fine)
+        copy->confined = self->confined;
     for (size_t i = 0; i < self->file_count && fine; i++) {
         const ld_source_file *file = self->file[i];
         char *text = malloc(file->length + 1);

@@ -17,8 +17,9 @@ typedef struct ld_source_file {
 
 /// All that a scenario was read from, so that it can be read again without its files.
 struct ld_source {
-    char *name;   ///< of the scenario, in messages
-    char *folder; ///< where files that it names are searched; NULL: `file` has all there are
+    char *name;    ///< of the scenario, in messages
+    char *folder;  ///< where files that it names are searched; NULL: `file` has all there are
+    bool confined; ///< those that do not lie there or below are refused
     size_t file_count;
     ld_source_file **file; ///< [file_count] the scenario first
     size_t set_count;

@@ -1,10 +1,10 @@
 // What is reported of a command: as --help prints it, or in another form made of the same.
-#ifndef LD_CLI_HELP_H
-#define LD_CLI_HELP_H
+#ifndef LD_CLI_WORDS_HELP_H
+#define LD_CLI_WORDS_HELP_H
 
 #include <stdbool.h>
 
-#include "cli/options.h"
+#include "cli/words/options.h"
 
 enum { COMMAND_WORDS = -1, COMMAND_ANY = -2 }; // one word or more; any number of them
 

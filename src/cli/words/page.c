@@ -1,4 +1,4 @@
-#include "cli/page.h"
+#include "cli/words/page.h"
 
 #include <stdbool.h>
 #include <stdio.h>

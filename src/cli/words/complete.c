@@ -1,4 +1,4 @@
-#include "cli/complete.h"
+#include "cli/words/complete.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 // Manual pages, in roff for man(1), of what --help reports.
-#ifndef LD_CLI_PAGE_H
-#define LD_CLI_PAGE_H
+#ifndef LD_CLI_WORDS_PAGE_H
+#define LD_CLI_WORDS_PAGE_H
 
-#include "cli/help.h"
+#include "cli/words/help.h"
 
 // Prints the page of a command.
 void page_print(const command *self, const command_option *options);

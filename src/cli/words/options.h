@@ -1,6 +1,6 @@
 // The options of a command: a table of them, what it reads, what --help says of it.
-#ifndef LD_CLI_OPTIONS_H
-#define LD_CLI_OPTIONS_H
+#ifndef LD_CLI_WORDS_OPTIONS_H
+#define LD_CLI_WORDS_OPTIONS_H
 
 #include <stdbool.h>
 #include <stddef.h>
