@@ -32,10 +32,10 @@ typedef enum quantity_each {
     EACH_SHOE,  // an adaptor on a guide's surfaces
     EACH_HINGE, // azimuth, elevation
     EACH_WHEEL,
-    EACH_MEASURE, // that the scenario asks for
-    EACH_SLIDE,   // support on which the tube recoils, by its number among them
-    EACH_PARACHUTE,
-    EACH_CANOPY,     // of a parachute, with a mass of its own
+    EACH_MEASURE,    // that the scenario asks for
+    EACH_SLIDE,      // support on which the tube recoils, by its number among them
+    EACH_PARACHUTE,  // of a rocket whose canopies have no mass
+    EACH_CANOPY,     // parachute with a mass of its own
     EACH_LINE_PLACE, // at equal parts of the length that is out, the first at the container
     EACH_STATION,    // of the tube, at which loads are asked for
     EACH_SUPPORT,    // of the tube, where loads are asked for

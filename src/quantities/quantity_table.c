@@ -31,6 +31,7 @@ quantity_things quantity_things_of(const ld_model *model)
     const ld_measure *measure = model_measure(model, 0);
     const ld_mechanism *parts = &model_base(model)->mechanism;
     bool multibody = model_has_multibody(model);
+    bool canopies = rocket->parachute[0].canopy.present; // all of them or none
     return (quantity_things){
         .count = {[EACH_RUN] = 1,
                   [EACH_VEHICLE] = on_vehicle,
@@ -67,8 +68,8 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_LINE] = rocket->line.present,
                   [EACH_GUIDE_WIND] = model_has_guide_wind(model),
                   [EACH_GUIDE_JET] = model_has_guide_jet(model),
-                  [EACH_PARACHUTE] = rocket->parachute_count,
-                  [EACH_CANOPY] = rocket->parachute[0].canopy.present ? rocket->parachute_count : 0,
+                  [EACH_PARACHUTE] = canopies ? 0 : rocket->parachute_count,
+                  [EACH_CANOPY] = canopies ? rocket->parachute_count : 0,
                   [EACH_LINE_PLACE] = rocket->line.present ? LD_LINE_PLACES : 0,
                   [EACH_STATION] = tubes->station_count,
                   [EACH_SUPPORT] = tubes->station_count ? tubes->support_count : 0},

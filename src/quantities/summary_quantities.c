@@ -193,8 +193,7 @@ static const quantity parachutes[] = {
     {"parachute.%s.t_open", "s", "parachute %s: begins to open", OPENED(t_open), KEPT, LINE("%s opens", "s", 1, 4)},
     {"parachute.%s.height", "m", "parachute %s: height of the mass centre above the ground then", OPENED(height), KEPT, LINE("%s, height", "m", 1, 3)},
     {"parachute.%s.airspeed", "m/s", "parachute %s: speed through the air then", OPENED(airspeed), KEPT, LINE("%s, airspeed", "m/s", 1, 3)},
-};
-static const quantity canopies[] = {
+    // with a canopy of its own besides
     {"parachute.%s.t_taut", "s", "parachute %s: its lines are taut for the first time", OPENED(t_taut), KEPT},
     {"parachute.%s.snatch", "N", "parachute %s: first maximum of the force of its lines", OPENED(snatch), KEPT, LINE("%s, snatch, largest force", "N", 1, 1)},
     {"parachute.%s.greatest_force", "N", "parachute %s: largest force of its lines", OPENED(greatest_force), KEPT, BESIDE(1)},
@@ -284,8 +283,8 @@ static const quantity_group rocket_groups[] = {
     {.title = "each foot of a multibody base, from ignition to exit", .each = EACH_FOOT, .launch = true, .block = SHOWN_HINGES, QUANTITY_ROWS(standing)},
     {.title = "change of the tube", .launch = true, .block = SHOWN_CHANGE, QUANTITY_ROWS(change)},
     {.title = "flight", .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(flight)},
-    {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
-    {.title = "of each canopy", .each = EACH_CANOPY, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(canopies)},
+    {.title = "of each parachute", .each = EACH_PARACHUTE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, .row = parachutes, .rows = 3},
+    {.title = "of each parachute with a canopy", .each = EACH_CANOPY, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(parachutes)},
     {.title = "line that the rocket pulls", .each = EACH_LINE, .where = QUANTITY_AT(ld_rocket_summary, flown), .block = SHOWN_FLIGHT, QUANTITY_ROWS(line_pulled)},
     {.title = "where the line breaks", .each = EACH_LINE, QUANTITY_ROWS(line_broken)},
     {.title = "places of the line", .each = EACH_LINE_PLACE, .where = QUANTITY_AT(ld_rocket_summary, flown), QUANTITY_ROWS(line_places)},

@@ -57,6 +57,13 @@ static void fill(const quantity_table *table, void *in_struct)
 static int set_up(void **state)
 {
     reference_vehicle(&made.model, 5);
+    static const char *const parachutes[] = {"drogue", "main"};
+    made.model.rocket.parachute_count = 2;
+    for (int i = 0; i < 2; i++) {
+        ld_parachute *one = &made.model.rocket.parachute[i];
+        snprintf(one->name, sizeof one->name, "%s", parachutes[i]);
+        one->canopy.present = true;
+    }
     made.things = quantity_things_of(&made.model);
     made.summary.rocket_count = 1;
     made.summary.rocket[0].flown = made.summary.rocket[0].final.earth = true;
