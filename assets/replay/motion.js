@@ -252,6 +252,8 @@ function numbered(segments) {
   });
 }
 
+const CANOPY = ["canopy.x", "canopy.y", "canopy.z"];
+
 // A rocket in free flight; `zero`: its ignition on the run's clock, from which its instants count.
 export class Flight {
   constructor(table, zero, { filled, rowAt }) {
@@ -268,6 +270,11 @@ export class Flight {
       for (const name of names) this.values.set(name, filled(table.column.get(name).value, table.t));
       this.line.push(names);
     }
+    // a canopy that is a body of its own, and how far it comes to be from the mass centre
+    this.canopy = table.column.has("canopy.x");
+    if (this.canopy) for (const name of [...CANOPY, "drag_area"]) this.values.set(name, filled(table.column.get(name).value, table.t));
+    this.reach = this.canopy ? this.t.reduce((most, _, row) => Math.max(most,
+      Math.hypot(...["x", "y", "z"].map((axis) => this.values.get(`canopy.${axis}`)[row] - this.values.get(`center.${axis}`)[row])) || 0), 0) : 0;
     this.heights = rangeOf([this.values.get("center.y")]);
     this.roll = [0];
     const spin = this.values.get("rocket.spin");
@@ -283,8 +290,9 @@ export class Flight {
       const values = this.values.get(name);
       return values[row] + share * (values[next] - values[row]);
     };
+    const canopy = this.canopy && { at: CANOPY.map(read), area: read("drag_area") };
     return {
-      row, line: this.line.map((names) => names.map(read)), center: [read("center.x"), read("center.y"), read("center.z")], thrust: read("thrust"),
+      canopy: canopy && canopy.at.every(Number.isFinite) ? canopy : null, row, line: this.line.map((names) => names.map(read)), center: [read("center.x"), read("center.y"), read("center.z")], thrust: read("thrust"),
       A: multiply(pose(read("rocket.yaw"), read("rocket.pitch"), 0), aboutX(read("roll"))),
     };
   }

@@ -4,6 +4,7 @@ import { AmbientLight, DirectionalLight, HemisphereLight, PerspectiveCamera, Sce
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { carrierOf } from "./carriers.js";
 import { Clamps } from "./clamps.js";
+import { Canopy } from "./canopy.js";
 import { Grid, Horizon, Map, Path, Pulled, Road, Sea } from "./ground.js";
 import { gltfOf } from "./gltf.js";
 import { Vehicle } from "./launcher.js";
@@ -50,6 +51,7 @@ export class Stage {
     this.forces = motion.free ? null : new Forces(motion, this.scene);
     this.paths = flights.map((flight) => flight && new Path(flight, this.scene));
     this.lines = flights.map((flight) => flight?.line.length && new Pulled(flight, this.scene));
+    this.canopies = flights.map((flight, i) => flight?.canopy && new Canopy(motion, this.bodies[i].length, this.scene));
     this.map = this.paths.some(Boolean) ? new Map(this.extent(), this.scene) : null;
     if (this.map) this.survey();
     this.thrust = Math.max(motion.largest("thrust"), 1e-9);
@@ -126,6 +128,7 @@ export class Stage {
     const afar = this.view === "path";
     this.paths.forEach((path, i) => path?.show(this.anchor, this.flying[i], afar));
     this.lines.forEach((pulled, i) => pulled && pulled.show(this.anchor, this.flying[i]));
+    this.canopies.forEach((canopy, i) => canopy && canopy.show(this.anchor, this.flying[i]));
     this.map?.show(this.anchor, afar);
     this.sea?.show(this.anchor, !afar);
     this.follow();
@@ -158,6 +161,7 @@ export class Stage {
       const far = -new Vector3(...subtract(flight.center, this.anchor)).applyMatrix4(this.camera.matrixWorldInverse).z;
       const times = this.view === "path" ? Math.max(1, AFAR / (this.pixels(far) * this.bodies[i].length)) : 1;
       this.bodies[i].enlarge(times);
+      if (this.canopies[i]) this.canopies[i].enlarge(times);
     });
   }
   // Pixels a metre at a distance.
@@ -197,7 +201,7 @@ export class Stage {
       subtract(add(state.tube.r, apply(state.tube.A, [x, 0, 0])), anchor);
     const i = this.watched(), flying = this.flying[i];
     if (this.view === "path" && this.map) return subtract(this.launched, anchor);
-    if (this.view === "rocket" && flying) return subtract(flying.center, anchor);
+    if (this.view === "rocket" && flying) return subtract(flying.canopy ? scaled(0.5, add(flying.center, flying.canopy.at)) : flying.center, anchor);
     if (this.view === "rocket" && state.rocket) return inTube(state.rocket.s + 0.5 * Math.max(...motion.adaptors));
     if (this.view === "launcher" && motion.mechanism) return subtract(state.followed, anchor);
     if (this.view === "launcher") return motion.vehicle ? [0, state.chassis.r[1], 0] : inTube(0.5 * motion.length);
@@ -208,8 +212,9 @@ export class Stage {
     const { motion, state } = this, wide = Math.max(1, 1.5 / this.camera.aspect);
     if (this.view === "path" && this.map) return this.beside;
     const across = (v) => apply(state.tube.A, v);
+    const i = this.watched(), size = Math.max(motion.length, this.flying[i]?.canopy ? 1.5 * this.flights[i].reach : 0);
     if (this.view === "rocket")
-      return this.flying[this.watched()] ? scaled(wide * 2.2 * motion.length / 3, [-1.7, 0.9, 3.1])
+      return this.flying[i] ? scaled(wide * 2.2 * size / 3, [-1.7, 0.9, 3.1])
         : across(scaled(wide * motion.length / 3, [0.5, 1.3, 3.2]));
     if (this.view === "tube") return across([0.6, 1.6, 6.4]);
     return this.base.seenFrom;
@@ -268,7 +273,7 @@ export class Stage {
   }
   // Moves eye and focus together with what the view follows.
   follow() {
-    const focus = this.focus(), { position } = this.camera, flew = Boolean(this.flying[this.watched()]);
+    const focus = this.focus(), { position } = this.camera, flying = this.flying[this.watched()], flew = (flying ? 1 : 0) + (flying?.canopy ? 1 : 0);
     if (!this.target || (this.view === "rocket" && flew !== this.flew)) this.begin(focus);
     else position.add(new Vector3(...subtract(focus, this.target)));
     this.flew = flew;

@@ -238,6 +238,10 @@ static const plot_figure figures[] = {
            HALF("Thrust", "thrust", KN, {"thrust", ""}),
            HALF("Mass", "mass", KG, {"rocket.mass", ""}),
            HALF("Density of the air", "density", KG_M3, {"density", ""})),
+    FLIGHT("flight-canopy", "Canopy of a parachute",
+           WIDE("Force of its lines", "force", KN, {"canopy.line_force", ""}),
+           HALF("Its velocity upwards", "velocity", M_S, {"canopy.vy", ""}),
+           HALF("Its velocity to the right", "velocity", M_S, {"canopy.vz", ""})),
 };
 // clang-format on
 

@@ -4,13 +4,13 @@
 #include "model/blocks/drag_devices.h"
 #include "systems/flight/canopy.h"
 
-void descent_set_tolerances(dormand_prince *steps, double tolerance)
+void descent_set_tolerances(const flight_system *system, dormand_prince *steps, double tolerance)
 {
     for (int i = FLIGHT_CANOPY_S; i < FLIGHT_ALL_STATES; i++) {
         steps->step.absolute[i] = 10 * tolerance;
         steps->step.relative[i] = 0;
     }
-    steps->count += FLIGHT_ALL_STATES - FLIGHT_CANOPY_S;
+    steps->count = system->states + FLIGHT_WAY - FLIGHT_CANOPY_S + system->own_filling;
 }
 
 // Slack lines pull at nothing, so steps would be long: a tenth of their length at most.
@@ -32,35 +32,47 @@ static double holds(const flight_phase *phase, const double *y)
     return -fmin(phase->canopy.stiffness * lines.stretch, lines.tension);
 }
 
-static double holds_at(const flight_phase *phase, dormand_prince *steps, double t)
+static double not_full(const flight_phase *phase, const double *y)
 {
-    double y[DORMAND_PRINCE_STATES];
-    dormand_prince_between(steps, t, y);
-    return holds(phase, y);
+    return 1 - flight_filled_by_way(phase, y);
 }
 
-static double find_switch(const flight_phase *phase, dormand_prince *steps)
+// Where something that is below 0 at the step's end comes to be so.
+static double find_end(double (*value)(const flight_phase *phase, const double *y),
+                       const flight_phase *phase, dormand_prince *steps)
 {
-    double a = steps->step.t0, b = steps->step.t;
+    double a = steps->step.t0, b = steps->step.t, y[DORMAND_PRINCE_STATES];
     for (int i = 0; i < 60 && b - a > 1e-15 * (1 + fabs(b)); i++) {
         double middle = 0.5 * (a + b);
-        *(holds_at(phase, steps, middle) < 0 ? &b : &a) = middle;
+        dormand_prince_between(steps, middle, y);
+        *(value(phase, y) < 0 ? &b : &a) = middle;
     }
     return b;
 }
 
+static void end_step(dormand_prince *steps, double t)
+{
+    if (t < steps->step.t)
+        dormand_prince_retake(steps, t);
+}
+
 void descent_locate(descent *self, const flight_phase *phase, dormand_prince *steps)
 {
-    self->t_switch = NAN;
-    if (!phase->canopy.given || steps->step.outcome != DORMAND_PRINCE_DONE ||
-        !(holds(phase, steps->step.y) < 0))
+    self->t_switch = self->t_full = NAN;
+    if (steps->step.outcome != DORMAND_PRINCE_DONE)
         return;
-    if (holds(phase, steps->step.y0) > 0) {
-        double t = find_switch(phase, steps);
-        if (t < steps->step.t)
-            dormand_prince_retake(steps, t);
+    if (phase->filling.by_way && not_full(phase, steps->step.y) <= 0) {
+        end_step(steps, find_end(not_full, phase, steps));
+        self->t_full = steps->step.t;
     }
+    // a step may end just there
+    if (!phase->canopy.given || !(holds(phase, steps->step.y) <= 0))
+        return;
+    if (holds(phase, steps->step.y0) > 0)
+        end_step(steps, find_end(holds, phase, steps));
     self->t_switch = steps->step.t;
+    if (self->t_full > steps->step.t)
+        self->t_full = NAN;
 }
 
 static double force_at(const flight_phase *phase, dormand_prince *steps, double t)

@@ -198,7 +198,7 @@ void flight_row(const flight_system *system, const quantity_columns *columns,
     now.mass = flight_mass(system, phase, t).m;
     now.thrust = flight_thrust(system, phase, t);
     now.margin = flight_stability_margin(system, phase, t, now.flow.mach);
-    now.drag_area = flight_drag_area(phase, t);
+    now.drag_area = flight_drag_area(phase, t, state);
     if (phase->hangs) // a point has no axis
         now.flow.angle_of_attack = now.margin = NAN;
     flight_phase rated = *phase;

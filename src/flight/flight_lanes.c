@@ -153,6 +153,7 @@ static bool load_next(lane_group *self, int i)
     if (status || !flight_run_continues(&one->run)) {
         end_lane(self, i, status);
     } else if (self->count == 1 || one->run.line || flight->job.system->canopies ||
+               flight->job.system->own_filling ||
                (other >= 0 && !flight_is_like(flight->job.system, self->side.system[other]))) {
         fly_alone(self, i);
     } else {

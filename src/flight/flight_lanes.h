@@ -35,7 +35,7 @@ typedef struct lane_source {
 int flight_lanes_here(void);
 
 // Flies until there is none. A flight unlike those in the air (flight_is_like), with a
-// line or with canopies of a mass is flown alone.
+// line, with canopies of a mass or that do not fill linearly in time is flown alone.
 // @return LD_OK or LD_ERR_MEMORY, where none has been asked for
 ld_status flight_lanes_fly(int lanes, const lane_source *source, ld_error *error);
 

@@ -260,13 +260,14 @@ static ld_status report_progress(flight_run *run, double t, const double *y)
 // One Runge-Kutta step of the classical kind.
 static void small_step(flight_run *run, double t, double h, double *y)
 {
-    double k[4][FLIGHT_ALL_STATES], at[FLIGHT_ALL_STATES];
+    double k[4][FLIGHT_ALL_STATES] = {0}, at[FLIGHT_ALL_STATES];
     const double part[4] = {0, 0.5, 0.5, 1};
-    int states = run->phase.canopy.given ? FLIGHT_ALL_STATES : run->job->system->states;
+    const flight_system *system = run->job->system;
+    int states = system->canopies || system->own_filling ? FLIGHT_ALL_STATES : system->states;
     for (int stage = 0; stage < 4; stage++) {
         for (int i = 0; i < states; i++)
             at[i] = y[i] + (stage ? part[stage] * h * k[stage - 1][i] : 0);
-        flight_rates(run->job->system, &run->phase, t + part[stage] * h, at, k[stage]);
+        flight_rates(system, &run->phase, t + part[stage] * h, at, k[stage]);
     }
     for (int i = 0; i < states; i++)
         y[i] += h / 6 * (k[0][i] + 2 * (k[1][i] + k[2][i]) + k[3][i]);
@@ -557,12 +558,10 @@ static void put_canopy_out(flight_run *run, int i, double t, double *y)
 {
     const flight_system *system = run->job->system;
     const ld_parachute *one = &system->rocket->parachute[i];
-    if (run->canopy < 0)
-        descent_set_tolerances(&run->steps, model_run(run->job->model)->flight_tolerance);
     canopy_open(system, &run->phase, i, t, y);
-    flight_hang(system, &run->phase, t, one->canopy.packed_area, 0);
+    flight_hang(system, &run->phase, t, one->canopy.packed_area);
     run->canopy = i;
-    run->descent = (descent){.t_switch = NAN};
+    run->descent = (descent){.t_switch = NAN, .t_full = NAN};
     run->t_full = INFINITY;
     run->area = one->drag_area;
     run->opened[i] = true;
@@ -572,11 +571,7 @@ static void put_canopy_out(flight_run *run, int i, double t, double *y)
 static void hang_below(flight_run *run, int i, double t, double *y)
 {
     const ld_parachute *one = &run->job->system->rocket->parachute[i];
-    double before = flight_drag_area(&run->phase, t);
-    bool at_once = one->filling == 0 || one->drag_area == before;
-    flight_hang(run->job->system, &run->phase, t, one->drag_area,
-                at_once ? 0 : (one->drag_area - before) / one->filling);
-    run->t_full = at_once ? INFINITY : t + one->filling;
+    run->t_full = flight_fill(run->job->system, &run->phase, t, y, i);
     run->area = one->drag_area;
     run->opened[i] = true;
     for (int k = 0; k < 3; k++)
@@ -608,6 +603,8 @@ static void open_parachute(flight_run *run, int i, double t, double *y)
                      "parachute %s of %.4g m2, opened at t = %.4f s, replaced one of %.4g m2: the "
                      "drag falls",
                      one->name, one->drag_area, t, run->area);
+    if (system->canopies || system->own_filling)
+        descent_set_tolerances(system, &run->steps, model_run(run->job->model)->flight_tolerance);
     if (one->canopy.present)
         put_canopy_out(run, i, t, y);
     else
@@ -617,18 +614,13 @@ static void open_parachute(flight_run *run, int i, double t, double *y)
 // The lines become taut or slack; the first time the canopy begins to fill.
 static void switch_lines(flight_run *run)
 {
-    const flight_system *system = run->job->system;
-    const dormand_prince_numbers *step = &run->steps.step;
+    dormand_prince_numbers *step = &run->steps.step;
     flight_phase *phase = &run->phase;
     canopy_switch(phase, !phase->canopy.taut);
     if (phase->canopy.taut && !run->descent.filling) {
-        const ld_parachute *one = &system->rocket->parachute[run->canopy];
         run->descent.filling = true;
         run->rocket->parachute[run->canopy].t_taut = step->t - run->job->t_ignition;
-        double more = one->drag_area - one->canopy.packed_area;
-        bool at_once = one->filling == 0 || more == 0;
-        flight_hang(system, phase, step->t, one->drag_area, at_once ? 0 : more / one->filling);
-        run->t_full = at_once ? INFINITY : step->t + one->filling;
+        run->t_full = flight_fill(run->job->system, phase, step->t, step->y, run->canopy);
     }
     run->descent.t_switch = NAN;
     dormand_prince_start(&run->steps, step->t, step->y);
@@ -654,7 +646,7 @@ static bool pass_parachutes(flight_run *run, double t, double *y)
 {
     bool passed = t >= run->t_full;
     if (passed) {
-        flight_hang(run->job->system, &run->phase, t, run->area, 0);
+        flight_hang(run->job->system, &run->phase, t, run->area);
         run->t_full = INFINITY;
     }
     for (int i = 0; i < parachutes_of(run); i++)
@@ -964,12 +956,14 @@ ld_status flight_run_examine(flight_run *run, bool seen)
     return LD_OK;
 }
 
-// After a step below a canopy, which may end where its lines become taut or slack; it may end even
-// earlier.
+// After a step below a canopy, or what fills by its way, which may end where its lines become taut
+// or slack, or it is full; it may end even earlier.
 static ld_status end_step_below(flight_run *run)
 {
     int canopy = run->canopy;
     descent_locate(&run->descent, &run->phase, &run->steps);
+    if (run->phase.filling.by_way)
+        run->t_full = fmin(INFINITY, run->descent.t_full); // which leaves NaN out
     ld_status status = flight_run_examine(run, true);
     if (!status && run->canopy == canopy && run->steps.step.t == run->descent.t_switch &&
         flight_run_continues(run)) {
@@ -991,7 +985,7 @@ ld_status flight_run_step(flight_run *run)
         most = fmin(most, descent_stop(&run->phase, &run->steps));
     dormand_prince_step(&run->steps, most);
     step->t_stop = stop;
-    if (run->phase.canopy.given)
+    if (run->phase.canopy.given || run->phase.filling.by_way)
         return end_step_below(run);
     const flight_step ends = ends_of(run);
     bool seen = flight_watch(run->job->system, &run->phase, &ends);
@@ -1005,7 +999,8 @@ static ld_status begin(flight_run *run, const double *y)
     const free_flight *job = run->job;
     double start[DORMAND_PRINCE_STATES] = {0};
     memcpy(start, y, FLIGHT_STATES * sizeof(double));
-    const double *first = run->job->system->canopies ? start : y;
+    bool wide = run->job->system->canopies || run->job->system->own_filling;
+    const double *first = wide ? start : y; // of all states
     set_tolerances(run);
     pass_parachutes(run, job->t_start, start);
     dormand_prince_start(&run->steps, job->t_start, start);
@@ -1097,7 +1092,7 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .t_topped = NAN,
                         .t_full = INFINITY,
                         .canopy = -1,
-                        .descent = {.t_switch = NAN}};
+                        .descent = {.t_switch = NAN, .t_full = NAN}};
     rocket->flown = true;
     set_triggers(run);
     flight_flow about = flight_flow_at(job->system, job->t_start, state);

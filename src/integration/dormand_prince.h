@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 // Most states; where not more than the fewer count, the others are left alone.
-enum { DORMAND_PRINCE_STATES = 22, DORMAND_PRINCE_FEW = 16, DORMAND_PRINCE_STAGES = 7 };
+enum { DORMAND_PRINCE_STATES = 23, DORMAND_PRINCE_FEW = 16, DORMAND_PRINCE_STAGES = 7 };
 
 // y_dot = f(t, y) of all the states (those not used: 0).
 typedef void dormand_prince_slopes(const double *t, const double *y, double *y_dot, void *self);

@@ -65,7 +65,8 @@ bool report_replay_shows(const char *name, bool flight)
         "rocket.s",      "rocket.y",     "rocket.z",      "rocket.psi", "rocket.theta",
         "rocket.gamma"};
     static const char *const of_flight[] = {"center.x",   "center.y",    "center.z", "rocket.pitch",
-                                            "rocket.yaw", "rocket.spin", "thrust"};
+                                            "rocket.yaw", "rocket.spin", "thrust",   "canopy.x",
+                                            "canopy.y",   "canopy.z",    "drag_area"};
     if (flight)
         return is_one_of(name, of_flight, sizeof of_flight / sizeof *of_flight) ||
                (strncmp(name, "line.", 5) == 0 && strspn(name + 5, "0123456789") > 0);

@@ -839,9 +839,31 @@ async function checkOutline(page) {
     wanted.every(([x, r], i) => near(solid.corners[i][0], x, 1e-5) && near(solid.corners[i][1], slim * r, 1e-5)), JSON.stringify(solid));
 }
 
-// Names below the slider, also those that stand before their instants at its end, do not meet.
-async function checkTicks(browser) {
-  const page = await open(browser, runOf("parachutes.yaml").file, { width: 400, replay: true });
+// A canopy is where and as large as the results have it, and moves on with its rocket enlarged about the mass centre. Names
+// below the slider, also those that stand before their instants at its end, do not meet.
+async function checkDescent(browser) {
+  const lines = "canopy: {mass: 0.4 kg, line_length: 6 m, line_stiffness: 20 kN, at: 2.4 0 0 m, ejection: 8 0 0 m/s}";
+  const run = runOf("parachutes.yaml", "--set", `rocket.parachutes={drogue: {${lines}}, main: {${lines}, filling: , filling_distance: 20 m}}`);
+  const page = await open(browser, run.file, { width: 400, replay: true }), { rockets: [{ parachute }] } = JSON.parse(readFileSync(join(run.out, "summary.json"), "utf8"));
+  const opened = parachute.main.t_open, value = (name, row) => run.column.get(name)[row];
+  for (const late of [-25, 0.4, 1.2, 20]) {
+    const row = rowNear(run.column.get("t"), opened + late);
+    const found = await page.evaluate((time) => {
+      const replay = window.launchdyn.current, [canopy] = replay.stage.canopies;
+      replay.look("path");
+      replay.show(time, true);
+      return { seen: canopy.dome.visible && canopy.lines.visible, offset: canopy.offset, radius: canopy.radius, times: canopy.dome.scale.x / canopy.radius,
+        drawn: ["x", "y", "z"].map((axis, i) => canopy.dome.position[axis] - canopy.center[i]) };
+    }, value("t", row));
+    const apart = ["x", "y", "z"].map((axis) => value(`canopy.${axis}`, row) - value(`center.${axis}`, row)), size = Math.max(0.08, Math.sqrt((4 * value("drag_area", row)) / (0.75 * Math.PI)) / 3);
+    const far = Math.hypot(...apart.map((v, i) => v - found.offset[i])), moved = Math.hypot(...found.drawn.map((v, i) => v / found.times - found.offset[i]));
+    check(`${late} s from its opening the canopy is seen where the results have it`, found.seen && far < 1e-3 && near(found.radius, size, 1e-6) && found.times > 10 && moved < 1e-6,
+      `${far} m off, radius ${found.radius} of ${size} m, ${found.times} times as large, ${moved} m beside that`);
+  }
+  const before = await page.evaluate(() => { const replay = window.launchdyn.current; replay.show(1, true); return replay.stage.canopies[0].dome.visible; });
+  check("but not before", before === false);
+  await page.evaluate((time) => { const replay = window.launchdyn.current; replay.look("rocket"); replay.show(time, true); }, opened + 3);
+  await picture(page, "canopy.png");
   const meet = await page.$$eval(".tick", (list) => list.map((node) => [node.textContent, node.getBoundingClientRect()]).filter(([text]) => text)
     .flatMap(([text, a], i, all) => all.slice(0, i).filter(([, b]) => a.left < b.right - 1 && b.left < a.right - 1 && Math.abs(a.bottom - b.bottom) < 4)
       .map(([other]) => `${other} and ${text}`)));
@@ -945,7 +967,7 @@ await inBrowser(async (browser) => {
   await checkFlight(browser);
   await checkTrailer(browser);
   await checkPath(browser);
-  await checkTicks(browser);
+  await checkDescent(browser);
   await checkVertical(browser);
   await checkHostile(browser);
 });

@@ -315,7 +315,8 @@ static void test_canopy(void **state)
         "rocket.parachutes={main: {canopy: {mass: 600 g, line_length: 7 m, line_stiffness: 20 kN, "
         "at: 1 0 0.1 m, ejection: 8 0 0 m/s, packed_area: 300 cm2}}, drogue: {canopy: {mass: 100 "
         "g, line_length: 3 m, line_stiffness: 9 kN, damping: 0.2, ejection: 8 0 0 m/s, "
-        "air_volume: 0.5 m3, strength: 2 kN}}}"};
+        "air_volume: 0.5 m3, strength: 2 kN}, filling: , filling_distance: 12 ft, filling_power: "
+        "2}}"};
     ld_model m = read_model("examples/parachutes.yaml", sets, 1);
     const ld_canopy *drogue = &m.rocket.parachute[0].canopy, *chief = &m.rocket.parachute[1].canopy;
     assert_true(drogue->present && chief->present);
@@ -324,6 +325,10 @@ static void test_canopy(void **state)
     assert_true(drogue->damping == 0.2 && chief->damping == 0.1 && isnan(chief->strength));
     assert_true(chief->at[0] == 1 && chief->at[2] == 0.1 && drogue->ejection[0] == 8);
     assert_true(fabs(chief->packed_area - 0.03) < 1e-17 && drogue->air_volume == 0.5);
+    const ld_parachute *first = &m.rocket.parachute[0], *second = &m.rocket.parachute[1];
+    assert_true(first->filling == 0 && fabs(first->filling_distance - 3.6576) < 1e-15);
+    assert_true(first->filling_power == 2 && second->filling_power == 1);
+    assert_true(second->filling == 1.2 && isnan(second->filling_distance));
     model_clear(&m);
 }
 

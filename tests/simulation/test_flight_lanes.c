@@ -94,6 +94,11 @@ static const char *const options[][MOST_SETTINGS] = {
      "rocket.eccentricity=0.3 -0.2 mm", "environment.earth=round"},
     {"rocket.parachutes=[{name: main, drag_area: 8 m2, trigger: apogee, filling: 0.5 s, canopy: "
      "{mass: 1 kg, line_length: 6 m, line_stiffness: 20 kN, at: 1.5 0 0 m, ejection: 8 0 0 m/s}}]"},
+    {"rocket.parachutes=[{name: drogue, drag_area: 0.5 m2, trigger: apogee, filling_distance: 9 m, "
+     "filling_power: 2}, {name: main, drag_area: 8 m2, trigger: height, height: 300 m, "
+     "filling_distance: 20 m}]"},
+    {"rocket.parachutes=[{name: main, drag_area: 8 m2, trigger: apogee, filling: 1 s, "
+     "filling_power: 3}]"},
     {MASSES},
     {MASSES, "rocket.motor.jet_damping=yes", "rocket.eccentricity=0.3 -0.2 mm"},
     {MASSES, SURFACES "]}",

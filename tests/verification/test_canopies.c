@@ -163,6 +163,99 @@ static void test_infinite_mass(void **state)
     model_clear(&model);
 }
 
+// Over a distance s the load of a rocket that does not slow down is greatest where the canopy is
+// full, C_x times the steady one at any speed: C_x = 1 + 3 j V_p/(A_p s).
+static void test_opening_infinite_mass(void **state)
+{
+    (void)state;
+    const double power[] = {1, 2, 2}, speed[] = {40, 40, 90};
+    for (int i = 0; i < 3; i++) {
+        char parachute[512], rest[256];
+        snprintf(parachute, sizeof parachute,
+                 "name: only, drag_area: 3 m2, trigger: time, time: 0.1 s, filling_distance: 18 m, "
+                 "filling_power: %g, canopy: {mass: 0.02 kg, line_length: 5 m, line_stiffness: %g "
+                 "N, damping: 1, ejection: -2 0 0 m/s, air_volume: 2.2 m3}",
+                 power[i], 3e6 * speed[i] * speed[i] / 1600); // which stretch as much
+        snprintf(rest, sizeof rest,
+                 "flight: {position: 0 0 0 m, velocity: %g 0 0 m/s}\nrun: {end: 3.2 s, "
+                 "flight_tolerance: 1e-9}\n",
+                 speed[i]);
+        ld_model model =
+            model_of(DENSE ", gravity: 0 m/s2",
+                     "mass: 1e9 kg, center: 0 0 0 m, inertia: 1e9 1e9 1e9 kg.m2", parachute, rest);
+        ld_parachute_summary opened = fly_model(&model).parachute[0];
+        double steady = 0.6 * 3 * speed[i] * speed[i];
+        double C_x = 1 + 3 * power[i] * 2.2 / (3 * 18);
+        CHECK_NEAR("C_x", opened.greatest_force / steady, C_x, 2e-3);
+        CHECK_NEAR("way until then [m]", speed[i] * (opened.t_greatest_force - opened.t_taut), 18,
+                   0.015);
+        model_clear(&model);
+    }
+}
+
+// A canopy that weighs nothing, on stiff lines, slows m' down in the filling time T (Ludtke,
+// Pflanz): v = v0/(1 + B x^(j + 1)), B = rho v0 A_p T/(2 m (j + 1)), the force greatest at x^(j +
+// 1) = j/(B (j + 2)).
+static void test_opening_finite_mass(void **state)
+{
+    (void)state;
+    const double power[] = {1, 2, 6};
+    for (int i = 0; i < 3; i++) {
+        char parachute[512];
+        snprintf(parachute, sizeof parachute,
+                 "name: only, drag_area: 3 m2, trigger: time, time: 0.1 s, filling: 0.8 s, "
+                 "filling_power: %g, canopy: {mass: 0.001 kg, line_length: 5 m, line_stiffness: 1 "
+                 "MN, damping: 1, ejection: -4 0 0 m/s}",
+                 power[i]);
+        ld_model model =
+            model_of(DENSE ", gravity: 0 m/s2",
+                     "mass: 8 kg, center: 0 0 0 m, inertia: 0.1 3 3 kg.m2", parachute,
+                     "flight: {position: 0 0 0 m, velocity: 60 0 0 m/s}\nrun: {end: 2.2 s, "
+                     "flight_tolerance: 1e-9}\n");
+        ld_parachute_summary opened = fly_model(&model).parachute[0];
+        double j = power[i], B = 1.2 * 60 * 3 * 0.8 / (2 * 8 * (j + 1));
+        double x = pow(j / (B * (j + 2)), 1 / (j + 1)), v = 60 / (1 + B * pow(x, j + 1));
+        CHECK_NEAR("opening shock, relative", opened.greatest_force / (0.6 * 3 * pow(x, j) * v * v),
+                   1, 2e-3);
+        CHECK_NEAR("at, of the filling", (opened.t_greatest_force - opened.t_taut) / 0.8, x, 1e-3);
+        model_clear(&model);
+    }
+}
+
+// While the motor burns the canopy opens below a rocket of the mass of that instant, whose thrust
+// ends.
+static void test_opens_while_burning(void **state)
+{
+    (void)state;
+    ld_model model = model_of(
+        DENSE ", gravity: 0 m/s2",
+        "mass: 12 kg, center: 0.3 0 0 m, inertia: 0.1 3 3 kg.m2, empty: {mass: 8 "
+        "kg, center: 0.3 0 0 m, inertia: 0.1 3 3 kg.m2}, motor: {thrust: [[0 s, 600 N], [2 s, 600 "
+        "N]]}",
+        "name: only, drag_area: 1 m2, trigger: time, time: 0.5 s, canopy: {mass: 0.5 kg, "
+        "line_length: 4 m, line_stiffness: 12 kN, damping: 0, ejection: 9 0 0 m/s}",
+        "flight: {position: 0 0 0 m, velocity: 10 0 0 m/s}\n"
+        "run: {end: 0.9 s, flight_tolerance: 1e-11, output_step: {flight: 0.1 s}}\n");
+    recorded_run run;
+    recorded_run_make(&run, &model);
+    const double *last = run.values + (run.rows - 1) * run.columns;
+    // 600 N over 12 - 2 t: v = 10 + 300 ln(12/11) at 0.5 s, 11 kg with the canopy
+    double v = 10 + 300 * log(12 / 11.0);
+    CHECK_NEAR("mass of the rocket [kg]", last[recorded_column(&run, "rocket.mass")], 10.5, 1e-14);
+    CHECK_NEAR("thrust [N]", last[recorded_column(&run, "thrust")], 0, 0);
+    CHECK_NEAR("momentum of both [kg m/s]",
+               10.5 * last[recorded_column(&run, "center.vx")] +
+                   0.5 * last[recorded_column(&run, "canopy.vx")],
+               11 * v, 1e-9);
+    CHECK_NEAR("they part at [m/s]",
+               last[recorded_column(&run, "canopy.vx")] - last[recorded_column(&run, "center.vx")],
+               9, 1e-11);
+    assert_int_equal(run.summary.note_count, 1);
+    assert_non_null(strstr(run.summary.note[0], "while the motor was burning"));
+    recorded_run_free(&run);
+    model_clear(&model);
+}
+
 // ---- a double pendulum
 
 typedef struct hanging {
@@ -203,7 +296,7 @@ static void test_pendulum(void **state)
         y[FLIGHT_Q] = cos(M_PI / 4 + turned / 2), y[FLIGHT_Q + 3] = sin(M_PI / 4 + turned / 2);
         canopy_open(&one.system, &one.phase, 0, 0, y);
         canopy_switch(&one.phase, true);
-        flight_hang(&one.system, &one.phase, 0, 1, 0);
+        flight_hang(&one.system, &one.phase, 0, 1);
         assert_false(one.phase.hangs);
         for (int i = 0; i < 3; i++)
             y[FLIGHT_V + i] = y[FLIGHT_W + i] = y[FLIGHT_CANOPY_U + i] = 0;
@@ -343,10 +436,12 @@ typedef struct two_bodies {
     bool out, taut, fills;
     double t_filled; // from when it fills
     double greatest;
+    double way, power; // over this distance, INFINITY: over the time; of the share of it
+    bool full;
 } two_bodies;
 
-// x, v, moment of momentum about the mass centre, attitude; x, v of the canopy
-enum { X = 0, V = 3, H = 6, A = 9, XC = 18, VC = 21, ALL = 24 };
+// x, v, moment of momentum about the mass centre, attitude; x, v of the canopy, its way as it fills
+enum { X = 0, V = 3, H = 6, A = 9, XC = 18, VC = 21, WAY = 24, ALL = 25 };
 
 static double tension_of(const two_bodies *self, const double *y, v3 *e, double *stretch)
 {
@@ -377,15 +472,21 @@ static void two_rates(const two_bodies *self, double t, const double *y, double 
     v3_store(f + H, v3_scale(pull, v3_cross(m3_apply(turned, self->arm), e)));
     m3 spun = m3_mul(m3_skew(w), turned);
     memcpy(f + A, &spun, sizeof spun);
-    memset(f + XC, 0, 6 * sizeof *f);
+    memset(f + XC, 0, 7 * sizeof *f);
     if (!self->out)
         return;
-    double share = fmin(1, fmax(0, (t - self->t_filled) / self->filling));
-    double area = self->packed + (self->area - self->packed) * share;
-    double held = self->volume * pow(area / self->area, 1.5);
-    double grows = self->fills ? (self->area - self->packed) / self->filling : 0;
-    double gains = self->volume * 1.5 * sqrt(area / self->area) * grows / self->area;
     v3 through = v3_sub(v3_from(y + VC), self->wind);
+    double share = (t - self->t_filled) / self->filling, pace = 1 / self->filling;
+    if (isfinite(self->way)) {
+        share = y[WAY] / self->way;
+        pace = v3_norm(through) / self->way;
+        f[WAY] = self->fills ? v3_norm(through) : 0;
+    }
+    share = self->full ? 1 : fmax(0, share);
+    double most = self->area - self->packed, area = self->packed + most * pow(share, self->power);
+    double held = self->volume * pow(area / self->area, 1.5);
+    double grows = self->fills ? most * self->power * pow(share, self->power - 1) * pace : 0;
+    double gains = self->volume * 1.5 * sqrt(area / self->area) * grows / self->area;
     v3 load = v3_axpy(v3_scale(self->canopy, weight), -pull, e);
     load = v3_axpy(load, -self->density * (0.5 * area * v3_norm(through) + gains), through);
     v3_store(f + XC, v3_from(y + VC));
@@ -405,15 +506,18 @@ static void two_step(const two_bodies *self, double t, double h, const double *y
         end[i] = y[i] + h / 6 * (k[0][i] + 2 * (k[1][i] + k[2][i]) + k[3][i]);
 }
 
-// A step at whose end the lines are otherwise is halved.
+// A step at whose end the lines are otherwise, or the canopy is full, is halved.
 static void two_advance(two_bodies *self, double t, double h, double *y)
 {
     double end[ALL], stretch, pull;
     v3 e;
     two_step(self, t, h, y, end);
     pull = tension_of(self, end, &e, &stretch);
-    bool taut = self->out && stretch > 0 && pull > 0;
-    if (taut != self->taut && h > 1e-12) {
+    bool taut = self->out && stretch > 0 && pull > 0, full = self->full;
+    if (self->fills && !full)
+        full = isfinite(self->way) ? end[WAY] >= self->way
+                                   : t + h >= self->t_filled + self->filling - 1e-12;
+    if ((taut != self->taut || full != self->full) && h > 1e-12) {
         two_advance(self, t, 0.5 * h, y);
         two_advance(self, t + 0.5 * h, 0.5 * h, y);
         return;
@@ -424,6 +528,8 @@ static void two_advance(two_bodies *self, double t, double h, double *y)
         self->fills = true;
     }
     self->taut = taut;
+    self->full = full;
+    self->fills = self->fills && !full;
     self->greatest = fmax(self->greatest, taut ? pull : 0);
 }
 
@@ -489,9 +595,11 @@ static void two_open(two_bodies *self, m3 whole, double mass, v3 c, v3 at, v3 ej
     push(self, m3_apply(m3_symmetric_inverse(done), m3_apply(turned, ejection)), y);
 }
 
-static void check_random(uint64_t seed)
+enum { LINEARLY, BY_POWER, BY_WAY };
+
+static void check_random(uint64_t seed, int law)
 {
-    uint64_t s = seed;
+    uint64_t s = seed, of_law = seed + 77;
     double mass = between(&s, 6, 30), canopy = between(&s, 0.3, 1.5);
     v3 c = {between(&s, 0.2, 0.6), between(&s, -0.02, 0.02), between(&s, -0.02, 0.02)};
     v3 at = {between(&s, 0.8, 1.6), between(&s, -0.1, 0.1), between(&s, -0.1, 0.1)};
@@ -509,7 +617,13 @@ static void check_random(uint64_t seed)
                       .volume = between(&s, 0, 8),
                       .density = 1.2,
                       .wind = {between(&s, -8, 8), 0, between(&s, -8, 8)},
-                      .t_filled = INFINITY};
+                      .t_filled = INFINITY,
+                      .way = INFINITY,
+                      .power = 1};
+    if (law != LINEARLY)
+        two.power = between(&of_law, 2, 4);
+    if (law == BY_WAY)
+        two.way = between(&of_law, 2, 9);
     double stiffness = between(&s, 4e3, 3e4), damping = between(&s, 0, 0.5);
     two.k = stiffness / two.length;
     two.damping = 2 * damping * sqrt(two.k * canopy * two.mass / mass);
@@ -521,12 +635,15 @@ static void check_random(uint64_t seed)
              "mass: %.17g kg, center: %.17g %.17g %.17g m, inertia: %.17g %.17g %.17g kg.m2", mass,
              c.x, c.y, c.z, whole.a[0][0], whole.a[1][1], whole.a[2][2]);
     snprintf(parachute, sizeof parachute,
-             "name: only, drag_area: %.17g m2, trigger: time, time: 0.15 s, filling: %.17g s, "
-             "canopy: {mass: %.17g kg, line_length: %.17g m, line_stiffness: %.17g N, damping: "
+             "name: only, drag_area: %.17g m2, trigger: time, time: 0.15 s, %s: %.17g %s, "
+             "filling_power: %.17g, canopy: {mass: %.17g kg, line_length: %.17g m, line_stiffness: "
+             "%.17g N, damping: "
              "%.17g, at: %.17g %.17g %.17g m, ejection: %.17g %.17g %.17g m/s, packed_area: %.17g "
              "m2, air_volume: %.17g m3}",
-             two.area, two.filling, canopy, two.length, stiffness, damping, at.x, at.y, at.z,
-             ejection.x, ejection.y, ejection.z, two.packed, two.volume);
+             two.area, law == BY_WAY ? "filling_distance" : "filling",
+             law == BY_WAY ? two.way : two.filling, law == BY_WAY ? "m" : "s", two.power, canopy,
+             two.length, stiffness, damping, at.x, at.y, at.z, ejection.x, ejection.y, ejection.z,
+             two.packed, two.volume);
     snprintf(rest, sizeof rest,
              "flight: {point: center, position: 0 0 0 m, velocity: %.17g %.17g %.17g m/s, rate: "
              "%.17g %.17g %.17g rad/s}\nrun: {end: 2 s, flight_tolerance: 1e-10}\n",
@@ -538,10 +655,8 @@ static void check_random(uint64_t seed)
     v3_store(y + H, m3_apply(whole, w));
     two_open(&two, whole, mass, c, at, ejection, 0.15, y);
     for (double t = 0.15, end; t < 2; t = end) {
-        double full = two.t_filled + two.filling;
-        end = fmin(t + 1e-4, t < full ? fmin(2, full) : 2);
+        end = fmin(t + 1e-4, 2);
         two_advance(&two, t, end - t, y);
-        two.fills = two.fills && end < two.t_filled + two.filling;
     }
     ld_model model = model_of(environment, rocket, parachute, rest);
     recorded_run run;
@@ -562,7 +677,8 @@ static void test_random(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= OF_ALL(6, 1); seed++)
-        check_random(seed);
+        for (int law = LINEARLY; law <= BY_WAY; law++)
+            check_random(seed, law);
 }
 
 // ---- in flights
@@ -640,10 +756,17 @@ static void test_on_earth(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_snatch),   cmocka_unit_test(test_snatch_across),
-        cmocka_unit_test(test_steady),   cmocka_unit_test(test_infinite_mass),
-        cmocka_unit_test(test_pendulum), cmocka_unit_test(test_balances),
-        cmocka_unit_test(test_random),   cmocka_unit_test(test_convergence),
+        cmocka_unit_test(test_snatch),
+        cmocka_unit_test(test_snatch_across),
+        cmocka_unit_test(test_steady),
+        cmocka_unit_test(test_infinite_mass),
+        cmocka_unit_test(test_opening_infinite_mass),
+        cmocka_unit_test(test_opening_finite_mass),
+        cmocka_unit_test(test_opens_while_burning),
+        cmocka_unit_test(test_pendulum),
+        cmocka_unit_test(test_balances),
+        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_convergence),
         cmocka_unit_test(test_on_earth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

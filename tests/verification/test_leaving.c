@@ -196,6 +196,41 @@ static void none_is_left_behind(void **state)
     reference_model_free(&model);
 }
 
+// In a guide that is shorter than the rocket an adaptor beyond the end, that of all or its own,
+// takes no part: the launch is that of a rocket without it.
+static void shorter_than_the_rocket(void **state)
+{
+    (void)state;
+    ld_summary summary[3];
+    for (int n = 0; n < 3; n++) {
+        ld_model model;
+        reference_model(&model);
+        ld_rocket *rocket = &model.rocket;
+        rocket->adaptor[0].leaves_at = 1.5;
+        rocket->adaptor[1].leaves_at = 2.6;
+        rocket->adaptor[2].leaves_at = 1.2; // it starts at 2 m
+        if (n == 1) {
+            rocket->adaptor[2].at = model.tubes.length;
+            rocket->adaptor[2].leaves_at = NAN;
+        }
+        rocket->adaptor_count = n < 2 ? 3 : 2;
+        summary[n] = summary_of_run(&model);
+        reference_model_free(&model);
+    }
+    const ld_rocket_summary *without = &summary[2].rocket[0];
+    for (int n = 0; n < 2; n++) {
+        const ld_rocket_summary *out = &summary[n].rocket[0];
+        printf("  pitch rate %.6f rad/s, yaw rate %.6f rad/s\n", out->tip_off.pitch_rate,
+               out->tip_off.yaw_rate);
+        CHECK_BELOW("exit speed [m/s]", out->exit_speed - without->exit_speed, 0);
+        CHECK_BELOW("t_rear [s]", out->t_rear - without->t_rear, 0);
+        CHECK_BELOW("of the middle one [s]", out->t_exit[1] - without->t_exit[1], 0);
+        CHECK_BELOW("pitch rate [rad/s]", out->tip_off.pitch_rate - without->tip_off.pitch_rate, 0);
+        CHECK_BELOW("yaw rate [rad/s]", out->tip_off.yaw_rate - without->tip_off.yaw_rate, 0);
+        CHECK_BELOW("energy residual, relative", summary[n].energy.residual_relative, 2e-11);
+    }
+}
+
 // ---- what falls off
 
 static double about_O1(const rocket_mass *mass, int i, int j)
@@ -305,6 +340,7 @@ int main(void)
         cmocka_unit_test(tip_off_is_that_of_the_pivoting),
         cmocka_unit_test(those_together_leave_at_one_instant),
         cmocka_unit_test(none_is_left_behind),
+        cmocka_unit_test(shorter_than_the_rocket),
         cmocka_unit_test(momenta_stay),
         cmocka_unit_test(energy_is_kept),
     };

@@ -106,6 +106,139 @@ static void test_filling_in_another(void **state)
                1 / (1 / 50.0 + 1.2 / 8 * area), 1e-9);
 }
 
+// A of the share x of time or way: drag areas below which the rocket is slowed without gravity.
+typedef struct growth {
+    double from, to, length, power; // [m2], [s] or [m]
+} growth;
+
+static double area_at(const growth *by, double at)
+{
+    return by->from + (by->to - by->from) * fmin(1, pow(at / by->length, by->power));
+}
+
+// Integral of A up to there.
+static double swept(const growth *by, double at)
+{
+    double x = fmin(at, by->length), more = (by->to - by->from) * by->length / (by->power + 1);
+    return by->from * x + more * pow(x / by->length, by->power + 1) + by->to * (at - x);
+}
+
+// In time (Pflanz): 1/v = 1/v0 + rho/(2 m) times that integral; with A = A_p x^j the deceleration
+// is greatest at x^(j+1) = j/(B (j + 2)), B = rho v0 A_p T/(2 m (j + 1)).
+static void test_filling_by_power(void **state)
+{
+    (void)state;
+    const double power[] = {2, 6, 2.7};
+    for (int i = 0; i < 3; i++) {
+        growth by = {0, 3, 1.3, power[i]};
+        char parachutes[256];
+        snprintf(parachutes, sizeof parachutes,
+                 "{name: only, drag_area: 3 m2, trigger: time, time: 0.4 s, filling: 1.3 s, "
+                 "filling_power: %g}",
+                 power[i]);
+        ld_rocket_summary rocket =
+            fly(UNIFORM ", gravity: 0 m/s2, ground: none, wind: {speed: 6 m/s, heading: 180 deg}",
+                parachutes,
+                "flight: {point: center, position: 0 0 0 m, velocity: 50 0 0 m/s}\n"
+                "run: {end: 3 s, flight_tolerance: 1e-11}\n");
+        double v0 = 56, B = 1.2 * v0 * 3 * 1.3 / (8 * (power[i] + 1));
+        double x = pow(power[i] / (B * (power[i] + 2)), 1 / (power[i] + 1));
+        double v = v0 / (1 + B * pow(x, power[i] + 1));
+        CHECK_NEAR("speed at the end [m/s]", rocket.final.center_velocity[0] + 6,
+                   1 / (1 / v0 + 1.2 / 8 * swept(&by, 2.6)), 2e-10);
+        CHECK_NEAR("greatest deceleration, relative",
+                   rocket.flight.max_acceleration / (0.6 * 3 * pow(x, power[i]) * v * v / 4), 1,
+                   1e-4);
+        CHECK_NEAR("at [s]", rocket.flight.t_max_acceleration, 0.4 + 1.3 * x, 5e-3);
+    }
+}
+
+// Over the way s through the air v = v0 exp(-rho/(2 m) swept(s)), whence the time by quadrature.
+static double time_over(const growth *by, double v0, double way)
+{
+    double sum = 0, cut[] = {0, fmin(way, by->length), way};
+    for (int part = 0; part < 2; part++)
+        for (int i = 0; i <= 2000; i++) {
+            double s = cut[part] + (cut[part + 1] - cut[part]) * i / 2000;
+            double weight = i % 2000 == 0 ? 1 : i % 2 ? 4 : 2;
+            sum += (cut[part + 1] - cut[part]) / 6000 * weight / v0 * exp(1.2 / 8 * swept(by, s));
+        }
+    return sum;
+}
+
+static void test_filling_by_way(void **state)
+{
+    (void)state;
+    const double power[] = {1, 2, 3.5};
+    for (int i = 0; i < 3; i++) {
+        char parachutes[512];
+        snprintf(parachutes, sizeof parachutes,
+                 "{name: drogue, drag_area: 0.2 m2, trigger: time, time: 0.5 s, filling_distance: "
+                 "9 m, filling_power: %g},"
+                 "{name: main, drag_area: 3 m2, trigger: time, time: %g s, filling_distance: 14 m, "
+                 "filling_power: %g}",
+                 power[i], i == 1 ? 0.6 : 1.5, power[2 - i]);
+        ld_model model =
+            model_of(UNIFORM ", gravity: 0 m/s2, ground: none, wind: {speed: 6 m/s}", parachutes,
+                     "flight: {point: center, position: 0 0 0 m, velocity: 50 0 0 m/s}\n"
+                     "run: {end: 4 s, flight_tolerance: 1e-11, output_step: {flight: 0.1 s}}\n");
+        recorded_run run;
+        recorded_run_make(&run, &model);
+        growth by[] = {{0, 0.2, 9, power[i]}, {0.2, 3, 14, power[2 - i]}};
+        double open[] = {0.5, i == 1 ? 0.6 : 1.5}, from = 0, v0 = 44, speed = 0, area = 0, late = 0;
+        int opened = -1;
+        for (size_t k = 0; k < run.rows; k++) {
+            double t = recorded_value(&run, k, recorded_column(&run, "t"));
+            double x = recorded_value(&run, k, recorded_column(&run, "center.x")) - 6 * t;
+            double v = recorded_value(&run, k, recorded_column(&run, "center.vx")) - 6;
+            double now = recorded_value(&run, k, recorded_column(&run, "drag_area"));
+            if (opened >= 0) {
+                double due = v0 * exp(-1.2 / 8 * swept(&by[opened], x - from));
+                speed = fmax(speed, fabs(v - due));
+                late = fmax(late, fabs(open[opened] + time_over(&by[opened], v0, x - from) - t));
+            }
+            if (opened < 1 && t > open[opened + 1] - 1e-9) {
+                opened++;
+                from = x;
+                v0 = v;
+                by[opened].from = now;
+            }
+            area = fmax(area, fabs(now - (opened < 0 ? 0 : area_at(&by[opened], x - from))));
+        }
+        assert_int_equal(opened, 1);
+        CHECK_BELOW("speed over the way [m/s]", speed, 1e-9);
+        CHECK_BELOW("time over the way [s]", late, 2e-10);
+        CHECK_BELOW("drag area [m2]", area, 4e-12);
+        recorded_run_free(&run);
+        model_clear(&model);
+    }
+}
+
+// Opened at its highest point it falls until it fills: (v^2)' = 2 g - rho A v^2/m over the way, so
+// v^2 = exp(-P) times the integral of 2 g exp(P), P = rho/m times the integral of A.
+static void test_filling_from_rest(void **state)
+{
+    (void)state;
+    ld_rocket_summary rocket =
+        fly(UNIFORM ", ground: none",
+            "{name: only, drag_area: 3 m2, trigger: time, time: 0 s, filling_distance: 8 m, "
+            "filling_power: 2}",
+            "flight: {point: center, position: 0 0 0 m, velocity: 0 0 0 m/s}\n"
+            "run: {end: 1.6 s, flight_tolerance: 1e-11}\n");
+    growth by = {0, 3, 8, 2};
+    double way = -rocket.final.center[1], sum = 0, cut[] = {0, 8, way};
+    double P = 1.2 / 4 * swept(&by, way);
+    assert_true(way > 8);
+    for (int part = 0; part < 2; part++)
+        for (int i = 0; i <= 2000; i++) {
+            double s = cut[part] + (cut[part + 1] - cut[part]) * i / 2000;
+            double weight = i % 2000 == 0 ? 1 : i % 2 ? 4 : 2;
+            sum += (cut[part + 1] - cut[part]) / 6000 * weight * exp(1.2 / 4 * swept(&by, s) - P);
+        }
+    CHECK_NEAR("speed below what has filled [m/s]", -rocket.final.center_velocity[1],
+               sqrt(2 * g * sum), 5e-11);
+}
+
 // A drogue that opens in the place of the main is reported.
 static void test_lesser(void **state)
 {
@@ -186,13 +319,11 @@ static void test_end_at_apogee(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_terminal_speed),
-        cmocka_unit_test(test_filling),
-        cmocka_unit_test(test_filling_in_another),
-        cmocka_unit_test(test_triggers),
-        cmocka_unit_test(test_standard_air),
-        cmocka_unit_test(test_end_at_apogee),
-        cmocka_unit_test(test_lesser),
+        cmocka_unit_test(test_terminal_speed),     cmocka_unit_test(test_filling),
+        cmocka_unit_test(test_filling_in_another), cmocka_unit_test(test_filling_by_power),
+        cmocka_unit_test(test_filling_by_way),     cmocka_unit_test(test_filling_from_rest),
+        cmocka_unit_test(test_triggers),           cmocka_unit_test(test_standard_air),
+        cmocka_unit_test(test_end_at_apogee),      cmocka_unit_test(test_lesser),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

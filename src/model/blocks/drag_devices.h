@@ -28,10 +28,12 @@ typedef struct ld_parachute {
     char name[LD_MAX_NAME];
     double drag_area; ///< [m2] C_D S when full, with all that hangs below it
     ld_trigger trigger;
-    double time;    ///< [s] from ignition
-    double height;  ///< [m] above the ground, falling
-    double lag;     ///< [s] from the trigger until it opens
-    double filling; ///< [s] in which the drag area grows, linearly
+    double time;             ///< [s] from ignition
+    double height;           ///< [m] above the ground, falling
+    double lag;              ///< [s] from the trigger until it opens
+    double filling;          ///< [s] in which the drag area grows
+    double filling_distance; ///< [m] through the air, instead; NaN: by time
+    double filling_power;    ///< [-] of the growth, 1: linear
     ld_canopy canopy;
 } ld_parachute;
 

@@ -775,6 +775,18 @@ static void canopy_rules(const rule_set *rules, int i)
                       "nothing takes it away from the rocket; give ejection or packed_area");
 }
 
+static void filling_rules(const rule_set *rules, int i)
+{
+    const ld_parachute *one = &rules->model->rocket.parachute[i];
+    bool by_way = one->filling_distance > 0;
+    if (by_way && one->filling > 0)
+        report_broken(rules, "rocket.parachutes.#.filling_distance", i + 1,
+                      "is not allowed with filling; give one of them");
+    if (one->filling_power != 1 && !by_way && one->filling == 0)
+        report_broken(rules, "rocket.parachutes.#.filling_power", i + 1,
+                      "requires filling or filling_distance, over which the drag area changes");
+}
+
 static void parachute_rules(const rule_set *rules)
 {
     const ld_model *model = rules->model;
@@ -785,6 +797,7 @@ static void parachute_rules(const rule_set *rules)
     for (int i = 0; i < rocket->parachute_count; i++) {
         const ld_parachute *one = &rocket->parachute[i];
         canopy_rules(rules, i);
+        filling_rules(rules, i);
         if (one->trigger == LD_TRIGGER_HEIGHT && model->environment.ground == LD_GROUND_NONE)
             report_broken(rules, "rocket.parachutes.#.trigger", i + 1,
                           "without ground there is no height above it");

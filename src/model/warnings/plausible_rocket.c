@@ -63,6 +63,13 @@ static plausible_pair speed_of_descent(const plausible_entry *at)
     return plausible_alone(sqrt(2 * rocket->empty.mass * 9.81 / (1.2 * area)));
 }
 
+// The way on which it fills over its diameter D, by a drag coefficient of 0.75: A = 0.75 pi D^2/4.
+static plausible_pair diameters_of_filling(const plausible_entry *at)
+{
+    const ld_parachute *one = &at->model->rocket.parachute[at->i];
+    return plausible_alone(one->filling_distance / sqrt(one->drag_area / (0.75 * acos(-1) / 4)));
+}
+
 // Angular frequency of the canopy on its lines, the rocket held.
 static plausible_pair swiftness_of_lines(const plausible_entry *at)
 {
@@ -231,6 +238,9 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "under a parachute the thrust is ignored"},
     {"rocket.parachutes.#.filling", .unit = "s", NO_LOW, .high = 20,
      .why = "parachutes fill in some tenths of a second to a few seconds"},
+    {"rocket.parachutes.#.filling_distance", "the number of the canopy's diameters", .unit = "",
+     .low = 1, .high = 40, .find = diameters_of_filling,
+     .why = "parachutes fill on 4 to 14 of their diameters"},
     {"rocket.parachutes.#.canopy.mass", .unit = "kg", .other = "rocket.mass", NO_LOW, .high = 0.3,
      .why = "canopies have some hundredths of the rocket's mass"},
     {"rocket.parachutes.#.canopy.line_stiffness", "the frequency of the canopy on its lines",

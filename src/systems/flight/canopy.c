@@ -96,12 +96,14 @@ double canopy_force(const flight_phase *phase, const double *state)
     return phase->canopy.taut ? canopy_lines_at(phase, state).tension : 0;
 }
 
-void canopy_volume(const flight_phase *phase, double t, double *volume, double *rate)
+void canopy_volume(const flight_phase *phase, double t, const double *state, double airspeed,
+                   double *volume, double *rate)
 {
-    double share = flight_drag_area(phase, t) / phase->canopy.full;
+    double share = flight_drag_area(phase, t, state) / phase->canopy.full;
     double most = phase->canopy.given->air_volume;
     *volume = most * share * sqrt(share);
-    *rate = 1.5 * most * sqrt(share) * phase->slope / phase->canopy.full;
+    *rate = 1.5 * most * sqrt(share) * flight_drag_area_rate(phase, t, state, airspeed) /
+            phase->canopy.full;
 }
 
 v3 canopy_place(const double *state)
@@ -111,8 +113,13 @@ v3 canopy_place(const double *state)
 
 // ---- rates
 
-// Force of the air on the canopy, and the mass of the air that moves with it.
-static v3 canopy_drag(const flight_lanes *one, double t, const double *state, double *mass)
+// Of the air at the canopy.
+typedef struct canopy_air {
+    v3 force;              // [N] on it
+    double mass, airspeed; // [kg] that moves with it, [m/s]
+} canopy_air;
+
+static canopy_air air_at_canopy(const flight_lanes *one, double t, const double *state)
 {
     const flight_phase *phase = one->phase[0];
     v3 r = canopy_place(state);
@@ -120,12 +127,14 @@ static v3 canopy_drag(const flight_lanes *one, double t, const double *state, do
     flow here = flow_at(one, t, (real3){r.x, r.y, r.z}, (real3){v.x, v.y, v.z}, state + FLIGHT_XI);
     v3 through = {here.v.x, here.v.y, here.v.z};
     double volume, rate, turn = one->system[0]->number.earth.rotation;
-    canopy_volume(phase, t, &volume, &rate);
-    *mass = here.air.density * volume;
-    double area = 0.5 * flight_drag_area(phase, t) * v3_norm(through);
+    canopy_air out = {.airspeed = v3_norm(through)};
+    canopy_volume(phase, t, state, out.airspeed, &volume, &rate);
+    out.mass = here.air.density * volume;
+    double area = 0.5 * flight_drag_area(phase, t, state) * out.airspeed;
     // the air around carries that in it, which turns with the Earth
     v3 carried = v3_make(-turn * turn * r.x, -turn * turn * r.y, 0);
-    return v3_axpy(v3_scale(-here.air.density * (area + rate), through), *mass, carried);
+    out.force = v3_axpy(v3_scale(-here.air.density * (area + rate), through), out.mass, carried);
+    return out;
 }
 
 // The force of the lines on the rocket.
@@ -151,10 +160,12 @@ void canopy_rates(const flight_system *self, flight_phase *phase, double t, cons
     const flight_canopy *canopy = &phase->canopy;
     canopy_lines lines = canopy_lines_at(phase, state);
     v3 force = pull(canopy, &lines, state, state_dot);
-    double carried, mass = canopy->given->mass;
-    v3 load = v3_sub(canopy_drag(&one, t, state, &carried), force);
+    canopy_air around = air_at_canopy(&one, t, state);
+    double mass = canopy->given->mass;
+    v3 load = v3_sub(around.force, force);
     load = v3_axpy(load, mass, earth_gravity(&self->earth, canopy_place(state)));
     v3_store(state_dot + FLIGHT_CANOPY_S, v3_from(state + FLIGHT_CANOPY_U));
     v3_store(state_dot + FLIGHT_CANOPY_U,
-             v3_sub(v3_scale(1 / (mass + carried), load), v3_from(state_dot + FLIGHT_V)));
+             v3_sub(v3_scale(1 / (mass + around.mass), load), v3_from(state_dot + FLIGHT_V)));
+    state_dot[FLIGHT_WAY] = phase->filling.by_way ? around.airspeed : 0;
 }

@@ -9,18 +9,13 @@
 // until T falls below 0; slack ones are taut again where l > L and T > 0. In air of density rho
 // that moves with v_air, A(t) the drag area, V = V_p (A/A_p)^1.5 the volume of air in the canopy:
 //   (m_c + rho V) v_c' = m_c g - T e - rho (|v_a| A/2 + V') v_a,   v_a = v_c - v_air
-// (the momentum of what is in it; weight and buoyancy of that air cancel).
+// (the momentum of what is in it; weight and buoyancy of that air cancel). Where it fills over a
+// distance, the last state is the way through the air since then [m], of the canopy, or of the
+// rocket below a parachute without a mass.
 #ifndef LD_SYSTEMS_FLIGHT_CANOPY_H
 #define LD_SYSTEMS_FLIGHT_CANOPY_H
 
 #include "systems/flight/flight.h"
-
-// Places in the state of a flight below a canopy.
-enum {
-    FLIGHT_CANOPY_S = FLIGHT_STATES,
-    FLIGHT_CANOPY_U = FLIGHT_CANOPY_S + 3,
-    FLIGHT_ALL_STATES = FLIGHT_CANOPY_U + 3,
-};
 
 // Puts parachute i of the rocket out at t: the rocket's mass data lose it, the state gets its
 // places; momentum, and moment of momentum, of the two are those of the rocket before.
@@ -42,8 +37,9 @@ canopy_lines canopy_lines_at(const flight_phase *phase, const double *state);
 // Force of the lines [N].
 double canopy_force(const flight_phase *phase, const double *state);
 
-// Volume of the air in it [m3] and its rate.
-void canopy_volume(const flight_phase *phase, double t, double *volume, double *rate);
+// Volume of the air in it [m3] and its rate at a speed through the air [m/s].
+void canopy_volume(const flight_phase *phase, double t, const double *state, double airspeed,
+                   double *volume, double *rate);
 
 // Adds the lines' force to the rates of the rocket, and those of the canopy.
 void canopy_rates(const flight_system *self, flight_phase *phase, double t, const double *state,

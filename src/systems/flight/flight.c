@@ -20,6 +20,20 @@ static bool is_symmetric_mass(const rocket_mass *mass)
            J[1][2] == 0;
 }
 
+static bool fills_linearly(const ld_parachute *one)
+{
+    return !(one->filling_distance > 0) && one->filling_power == 1;
+}
+
+// The steps of such a flight are its own.
+static bool has_own_filling(const ld_rocket *rocket)
+{
+    for (int i = 0; i < rocket->parachute_count; i++)
+        if (!fills_linearly(&rocket->parachute[i]))
+            return true;
+    return false;
+}
+
 // A canopy leaves the rocket's mass at the point of its lines.
 static bool has_canopies_on_axis(const ld_rocket *rocket)
 {
@@ -106,6 +120,7 @@ ld_status flight_renew(flight_system *self, const ld_model *model, int rocket, l
                             .parachutes = flying->parachute_count > 0,
                             .canopies =
                                 flying->parachute_count > 0 && flying->parachute[0].canopy.present,
+                            .own_filling = has_own_filling(flying),
                             .ground = environment->ground_height,
                             .has_ground = environment->ground == LD_GROUND_PLANE};
     earth_build(&self->earth, model);
@@ -213,19 +228,73 @@ void flight_set_piece(const flight_system *self, flight_phase *phase, int piece)
         set_mass_below(phase);
 }
 
-void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
+// From `area` at t on with the slope given, or as `filling` says.
+static void hang(const flight_system *self, flight_phase *phase, double t, double area,
                  double slope)
 {
-    phase->area = slope == 0 ? area : flight_drag_area(phase, t);
+    phase->area = area;
     phase->slope = slope;
     phase->hangs_since = t;
     phase->hangs = !phase->canopy.given;
     flight_set_piece(self, phase, phase->piece);
 }
 
-double flight_drag_area(const flight_phase *phase, double t)
+void flight_hang(const flight_system *self, flight_phase *phase, double t, double area)
 {
-    return phase->area + phase->slope * (t - phase->hangs_since);
+    phase->filling = (flight_filling){0};
+    hang(self, phase, t, area, 0);
+}
+
+double flight_fill(const flight_system *self, flight_phase *phase, double t, double *state, int i)
+{
+    const ld_parachute *one = &self->rocket->parachute[i];
+    bool by_way = one->filling_distance > 0;
+    double length = by_way ? one->filling_distance : one->filling;
+    double before = flight_drag_area(phase, t, state), more = one->drag_area - before;
+    if (length == 0 || more == 0) {
+        flight_hang(self, phase, t, one->drag_area);
+        return INFINITY;
+    }
+    phase->filling = (flight_filling){0};
+    if (fills_linearly(one)) {
+        hang(self, phase, t, before, more / length);
+        return t + length;
+    }
+    if (by_way)
+        state[FLIGHT_WAY] = 0;
+    phase->filling = (flight_filling){more, 1 / length, one->filling_power, by_way};
+    hang(self, phase, t, before, 0);
+    return by_way ? INFINITY : t + length;
+}
+
+// The share of the time or the way in which it fills.
+static double gone(const flight_phase *phase, double t, const double *state)
+{
+    return phase->filling.per *
+           (phase->filling.by_way ? state[FLIGHT_WAY] : t - phase->hangs_since);
+}
+
+double flight_drag_area(const flight_phase *phase, double t, const double *state)
+{
+    const flight_filling *filling = &phase->filling;
+    if (filling->power == 0)
+        return phase->area + phase->slope * (t - phase->hangs_since);
+    return phase->area + filling->more * pow(gone(phase, t, state), filling->power);
+}
+
+double flight_drag_area_rate(const flight_phase *phase, double t, const double *state,
+                             double airspeed)
+{
+    const flight_filling *filling = &phase->filling;
+    if (filling->power == 0)
+        return phase->slope;
+    return filling->more * filling->power * filling->per * (filling->by_way ? airspeed : 1) *
+           pow(gone(phase, t, state), filling->power - 1);
+}
+
+double flight_filled_by_way(const flight_phase *phase, const double *state)
+{
+    return phase->filling.by_way ? gone(phase, 0, state) : 0;
 }
 
 static const ld_table *brakes_table(const ld_air_brakes *brakes)

@@ -45,6 +45,11 @@ enum {
     FLIGHT_W = 11,
     FLIGHT_XI = 14,
     FLIGHT_STATES = 16,
+    // below a parachute that has them, canopy.h
+    FLIGHT_CANOPY_S = FLIGHT_STATES,
+    FLIGHT_CANOPY_U = FLIGHT_CANOPY_S + 3,
+    FLIGHT_WAY = FLIGHT_CANOPY_U + 3,
+    FLIGHT_ALL_STATES,
 };
 
 // The numbers that the equations of motion read, all doubles: lanes keep them side by side
@@ -99,6 +104,7 @@ typedef struct flight_system {
     bool jet_damping;
     bool parachutes;  // there are some
     bool canopies;    // with a mass of their own
+    bool own_filling; // one of them does not fill linearly in time
     bool feels_air;   // of aerodynamics, brakes or parachutes, or its guide does
     bool symmetric;   // the same all around its x axis: nothing depends on the roll angle
     bool feels_shear; // surfaces in a wind that changes with height
@@ -130,6 +136,13 @@ typedef struct flight_canopy {
     rocket_mass rocket;            // without it
 } flight_canopy;
 
+// How a drag area grows that does not linearly in time: A = A_0 + more x^power, x = per way, the
+// way through the air since then (FLIGHT_WAY [m]), or per time.
+typedef struct flight_filling {
+    double more, per, power; // [m2], [1/m] or [1/s], 0: it does not
+    bool by_way;
+} flight_filling;
+
 // What is switched between steps.
 typedef struct flight_phase {
     double t_ignition; // [s]
@@ -137,6 +150,7 @@ typedef struct flight_phase {
     bool burning;
     bool hangs;                      // below a parachute, as a point
     double hangs_since, area, slope; // its drag area [m2] then [s], [m2/s] while it fills
+    flight_filling filling;
     flight_canopy canopy;
     double lowest_trigger; // [m] height at or below which a parachute's trigger waits; else -inf
     int changes;           // of the numbers, so far
@@ -148,12 +162,18 @@ typedef struct flight_phase {
 // Begins a piece of the thrust curve (elements/motor.h).
 void flight_set_piece(const flight_system *self, flight_phase *phase, int piece);
 
-// The drag area of the parachute that the rocket hangs below, or of its canopy, goes linearly from
-// what it is at t to `area` [m2] with the slope given [m2/s], or there at once where that is 0.
-void flight_hang(const flight_system *self, flight_phase *phase, double t, double area,
-                 double slope);
-// Its value at t; 0 where the rocket flies on its own.
-double flight_drag_area(const flight_phase *phase, double t);
+// The drag area of the parachute that the rocket hangs below, or of its canopy, is `area` [m2] from
+// t on.
+void flight_hang(const flight_system *self, flight_phase *phase, double t, double area);
+// It grows from what it is at t to that of parachute i; when it is full [s], infinity: at once, or
+// where it has come so far through the air.
+double flight_fill(const flight_system *self, flight_phase *phase, double t, double *state, int i);
+// Its value; 0 where the rocket flies on its own. Its rate [m2/s] at a speed through the air [m/s].
+double flight_drag_area(const flight_phase *phase, double t, const double *state);
+double flight_drag_area_rate(const flight_phase *phase, double t, const double *state,
+                             double airspeed);
+// What grows with its way is full at 1.
+double flight_filled_by_way(const flight_phase *phase, const double *state);
 
 // Drag area of the air brakes [m2], `since` [s] the ignition, at the height [m] above the ground.
 double flight_brake_area(const flight_system *self, double since, double height);

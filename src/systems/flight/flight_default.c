@@ -1,5 +1,7 @@
 // One flight.
 #define LANES 1
+#include <string.h>
+
 #include "math/functions.h"
 #include "math/vectors/mat3.h"
 #include "model/blocks/rocket.h"
@@ -44,7 +46,13 @@ void flight_rates(const flight_system *self, flight_phase *phase, double t, cons
                   double *state_dot)
 {
     const flight_lanes one = lane_of(self, phase);
+    if (phase->filling.power > 0)
+        phase->number.parachute.area = flight_drag_area(phase, t, state);
     flight_rates_of(&one, &t, state, state_dot);
+    if (phase->hangs && self->own_filling) {
+        memset(state_dot + FLIGHT_CANOPY_S, 0, (FLIGHT_WAY - FLIGHT_CANOPY_S) * sizeof *state_dot);
+        state_dot[FLIGHT_WAY] = phase->filling.by_way ? flight_flow_at(self, t, state).airspeed : 0;
+    }
     if (phase->line)
         pull(self, phase, t, state, state_dot);
     if (phase->canopy.given)
