@@ -383,6 +383,11 @@ static void test_lies(void **state)
                 0.4);
 }
 
+static v3 place_of(const ld_rocket_summary *rocket, int i)
+{
+    return v3_make(rocket->line.place[i].x, rocket->line.place[i].y, rocket->line.place[i].z);
+}
+
 // All of a short line is out before the landing: held, its end pulls back until it breaks there.
 static void test_breaks(void **state)
 {
@@ -403,6 +408,17 @@ static void test_breaks(void **state)
     assert_true(broken.flight.range > held.flight.range + 20);
     CHECK_NEAR("range beside that of a free end [m]", broken.flight.range, loose.flight.range, 15);
     CHECK_NEAR("all is out: as early [s]", loose.line.t_end, held.line.t_end, 1e-12);
+    // a stronger one breaks later, elsewhere: its places are those of what hangs on the container
+    ld_rocket_summary later = thrown(150, ", breaking_force: 600 N");
+    double farthest = 0, between = 0;
+    for (int k = 0; k < LD_LINE_PLACES; k++) {
+        farthest = fmax(farthest, hypot(later.line.place[k].x + 1, later.line.place[k].z));
+        v3 step = k ? v3_sub(place_of(&later, k), place_of(&later, k - 1)) : v3_zero();
+        between += v3_norm(step);
+    }
+    printf("  breaks %.1f m from the rocket\n", later.line.broken_at);
+    CHECK_BELOW("reach beyond the farthest place [m]", later.line.reach - farthest, 1);
+    CHECK_BELOW("what is left, along its places [m]", between, 150 - later.line.broken_at);
 }
 
 // The pull acts at the bridle: accelerations of a rocket that is free but for it.

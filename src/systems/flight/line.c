@@ -371,10 +371,10 @@ static void watch_tensions(flight_line *self, const line_bridle *bridle)
     }
     if (self->cut >= 0 || !(self->work->most > given->breaking_force))
         return;
-    self->cut = self->work->tightest;
     self->t_broke = self->t;
-    self->broke_at = self->count ? length_to(self, self->cut) : 0;
+    self->broke_at = self->count ? length_to(self, self->work->tightest) : 0;
     self->broke = line_place(self, self->t, bridle->r, 1 - self->broke_at / self->paid);
+    self->cut = self->work->tightest;
     find_rates(self, self->point, self->paid, bridle);
     self->rate = self->work->rates.paid;
 }
@@ -527,9 +527,11 @@ double line_paid(const flight_line *self, double t)
 
 v3 line_place(const flight_line *self, double t, v3 bridle, double share)
 {
-    if (broke_short(self) && !isnan(self->broke.x))
+    if (broke_short(self))
         return v3_axpy(self->hold.r, share, v3_sub(self->broke, self->hold.r));
-    double d = segment_length(self), at = (1 - share) * self->paid;
+    bool parted = self->cut >= 0 && self->cut < self->count;
+    double d = segment_length(self), gone = parted ? (self->cut + 1) * d : 0;
+    double at = gone + (1 - share) * (self->paid - gone);
     int i = (int)fmin(at / d, self->count);
     double length = i < self->count ? d : self->paid - self->count * d;
     bool held =

@@ -92,7 +92,7 @@ void line_advance(flight_line *self, double to, const line_bridle *bridle);
 v3 line_force(const flight_line *self, double t);
 
 // Where the line is, at a share of the length that has left the container (0) up to the bridle
-// (1), which is at `bridle`; t: at most a step before now.
+// (1), which is at `bridle`, or up to where it has broken; t: at most a step before now.
 v3 line_place(const flight_line *self, double t, v3 bridle, double share);
 
 // Greatest horizontal distance [m] from the container of the part of the line that hangs on it.
