@@ -100,6 +100,30 @@ do for [j = 1:2] {
 }
 unset multiplot
 
+# ---- a rail that is not straight ----
+set output "docs/figures/rail-bends.svg"
+set terminal svg size 1000,380
+set multiplot layout 1,3
+set yrange [*:*]
+array shape[2] = ["kink", "height"]
+array of_joint[2] = ["kink of a joint at 4 m, upwards [mrad]", "step of a joint at 4 m, upwards [mm]"]
+set xrange [-1.05:1.05]
+set ylabel "pitch rate at the exit [mrad/s]"
+set key default top left samplen 2
+do for [k = 1:2] {
+    set xlabel of_joint[k]
+    plot out."/".shape[k].".txt" using 1:2 with points pt 7 ps 0.4 lc 1 title name[1], \
+         out."/".shape[k]."-stiff.txt" using 1:2 with linespoints pt 7 ps 0.4 lc 3 title name[3], \
+         out."/rigid-".shape[k].".txt" using 1:2 with lines lc "black" dt 2 title "closed form"
+    unset key
+}
+set xrange [-0.2:5.2]
+set xlabel "deviation of random bends [mm]"
+set key default top left samplen 2
+plot out."/bend.txt" using 1:2 with points pt 7 ps 0.4 lc 1 title name[1], \
+     out."/bend-stiff.txt" using ($1 + 0.12):2 with points pt 7 ps 0.4 lc 3 title name[3]
+unset multiplot
+
 # ---- mass centre and wind ----
 set output "docs/figures/rail-offset.svg"
 set terminal svg size 1000,380
