@@ -1,6 +1,7 @@
 #include "elements/motor.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/functions.h"
 #include "model/masses.h"
@@ -150,7 +151,7 @@ static void find_across(const ld_motor *given, double t, double across[ACROSS_CO
 static ld_status build_across(motor *self, const ld_motor *given, int place, ld_error *error)
 {
     const ld_side_noise *noise = &given->side_force.noise;
-    self->across = malloc((self->corner_count + 1) * ACROSS_COUNT * sizeof(double));
+    self->across = calloc((self->corner_count + 1) * ACROSS_COUNT, sizeof(double));
     if (!self->across)
         return ld_fail(error, LD_ERR_MEMORY, "no memory for the side force");
     for (size_t k = 0; k < self->corner_count; k++)
@@ -158,7 +159,31 @@ static ld_status build_across(motor *self, const ld_motor *given, int place, ld_
     return noise->present ? side_noise_build(&self->noise, noise, place, error) : LD_OK;
 }
 
-ld_status motor_build(motor *self, const ld_rocket *rocket, int place, ld_error *error)
+// Room for the corners; freed by motor_free().
+static ld_status make_room(motor *self, size_t most, bool by_table, ld_error *error)
+{
+    self->t = malloc((3 * most + 1) * sizeof(double));
+    self->at = by_table ? malloc((most + 1) * sizeof *self->at) : NULL;
+    if (!self->t || (by_table && !self->at)) {
+        motor_free(self);
+        return ld_fail(error, LD_ERR_MEMORY, "no memory for the thrust table");
+    }
+    self->thrust = self->t + most;
+    self->impulse = self->t + 2 * most;
+    return LD_OK;
+}
+
+static void sum_impulse(motor *self)
+{
+    for (size_t k = 0; k < self->corner_count; k++)
+        self->impulse[k] =
+            k == 0 ? 0
+                   : self->impulse[k - 1] + 0.5 * (self->thrust[k] + self->thrust[k - 1]) *
+                                                (self->t[k] - self->t[k - 1]);
+}
+
+// The motor alone.
+static ld_status build_alone(motor *self, const ld_rocket *rocket, int place, ld_error *error)
 {
     const ld_motor *given = &rocket->motor;
     const ld_side_force *side = &given->side_force;
@@ -168,14 +193,8 @@ ld_status motor_build(motor *self, const ld_rocket *rocket, int place, ld_error 
     *self = (motor){.propellant = rocket->propellant};
     self->full = mass_of(rocket, &rocket->full);
     self->empty = mass_of(rocket, &rocket->empty);
-    self->t = malloc((3 * most + 1) * sizeof(double));
-    self->at = by_table ? malloc(most * sizeof *self->at) : NULL;
-    if (!self->t || (by_table && !self->at)) {
-        motor_free(self);
-        return ld_fail(error, LD_ERR_MEMORY, "no memory for the thrust table");
-    }
-    self->thrust = self->t + most;
-    self->impulse = self->t + 2 * most;
+    if (make_room(self, most, by_table, error))
+        return LD_ERR_MEMORY;
     find_corners(self, given);
     if ((side->present || given->nozzle.rows > 0) && build_across(self, given, place, error)) {
         motor_free(self);
@@ -186,12 +205,188 @@ ld_status motor_build(motor *self, const ld_rocket *rocket, int place, ld_error 
             self->at[k] = masses_in_table(rocket, self->t[k]);
         self->t[k] = motor_clock(given, self->t[k]);
         self->thrust[k] *= given->thrust_scale;
-        self->impulse[k] =
-            k == 0 ? 0
-                   : self->impulse[k - 1] + 0.5 * (self->thrust[k] + self->thrust[k - 1]) *
-                                                (self->t[k] - self->t[k - 1]);
     }
+    sum_impulse(self);
     return LD_OK;
+}
+
+// ---- further motors
+
+static bool burning(const motor *self, int piece)
+{
+    return piece >= 0 && piece + 1 < (int)self->corner_count;
+}
+
+// Just before a time, or just after.
+typedef enum time_side { BEFORE, AFTER } time_side;
+
+// Thrust of all and what is beside it at a corner.
+typedef struct corner {
+    double thrust, across[ACROSS_COUNT];
+} corner;
+
+static bool is_past(double t, double from, time_side side)
+{
+    return side == AFTER ? t >= from : t > from;
+}
+
+// Where t lies between two corners, from 0 to 1; 1 at the second to the bit.
+static double share_of(double t, double from, double to)
+{
+    return t == to ? 1 : (t - from) / (to - from);
+}
+
+static double between(double a, double b, double share)
+{
+    return share == 1 ? b : a + share * (b - a);
+}
+
+static void add_alone(const motor *alone, double t, time_side side, corner *out)
+{
+    int piece = -1;
+    while (piece + 1 < (int)alone->corner_count && is_past(t, alone->t[piece + 1], side))
+        piece++;
+    if (!burning(alone, piece))
+        return;
+    double share = share_of(t, alone->t[piece], alone->t[piece + 1]);
+    out->thrust += between(alone->thrust[piece], alone->thrust[piece + 1], share);
+    if (!alone->across)
+        return;
+    const double *a = alone->across + (size_t)piece * ACROSS_COUNT, *b = a + ACROSS_COUNT;
+    for (int i = 0; i < ACROSS_COUNT; i++)
+        out->across[i] += between(a[i], b[i], share);
+}
+
+static void add_further(const ld_further_motor *one, double t, time_side side, corner *out)
+{
+    const ld_table *table = &one->thrust;
+    size_t k = 0; // the row after
+    while (k < table->rows && is_past(t, further_motor_clock(one, table->data[2 * k]), side))
+        k++;
+    if (k == 0 || k == table->rows)
+        return;
+    const double *a = table->data + 2 * (k - 1), *b = a + 2;
+    double share = share_of(t, further_motor_clock(one, a[0]), further_motor_clock(one, b[0]));
+    double thrust = one->thrust_scale * between(pushing(a[1]), pushing(b[1]), share);
+    v3 direction = {1, one->misalignment[0], one->misalignment[1]};
+    v3 force = v3_scale(thrust / v3_norm(direction), direction);
+    v3 moment = v3_cross(v3_from(one->at), force);
+    out->thrust += thrust;
+    out->across[ACROSS_OTHERS] += thrust;
+    v3_store(out->across + ACROSS_OTHERS_FORCE,
+             v3_add(v3_from(out->across + ACROSS_OTHERS_FORCE), force));
+    v3_store(out->across + ACROSS_OTHERS_MOMENT,
+             v3_add(v3_from(out->across + ACROSS_OTHERS_MOMENT), moment));
+}
+
+static corner corner_at(const motor *alone, const ld_rocket *rocket, double t, time_side side)
+{
+    corner out = {0};
+    add_alone(alone, t, side, &out);
+    for (int i = 0; i < rocket->further_motor_count; i++)
+        add_further(&rocket->further_motor[i], t, side, &out);
+    return out;
+}
+
+static bool is_same(const corner *a, const corner *b)
+{
+    bool same = a->thrust == b->thrust;
+    for (int i = 0; i < ACROSS_COUNT; i++)
+        same = same && a->across[i] == b->across[i];
+    return same;
+}
+
+// Mass data of all at t; the axes of the inertia are turned as those at ignition.
+static rocket_mass masses_of_all(const ld_rocket *rocket, double t)
+{
+    const double *delta = rocket->dynamic_imbalance;
+    rocket_mass out = mass_of(rocket, &rocket->full);
+    m3 turn = rotation_onto(delta[0], delta[1]);
+    m3 grown = masses_of_parts(rocket, t, &out.m, &out.c);
+    out.m += rocket->mass_error;
+    out.c.y += rocket->eccentricity[0];
+    out.c.z += rocket->eccentricity[1];
+    out.J = m3_add(out.J, m3_mul(m3_mul(turn, grown), m3_transpose(turn)));
+    return out;
+}
+
+static int compare_times(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+// All corners' times, in order; returns how many. `t` NULL: counts alone.
+static size_t gather_times(const motor *alone, const ld_rocket *rocket, double *t)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < alone->corner_count; k++, n++)
+        if (t)
+            t[n] = alone->t[k];
+    for (int i = 0; i < rocket->further_motor_count; i++) {
+        const ld_further_motor *one = &rocket->further_motor[i];
+        const ld_table *const table[] = {&one->thrust, &one->masses};
+        for (int j = 0; j < 2; j++)
+            for (size_t k = 0; k < table[j]->rows; k++, n++)
+                if (t)
+                    t[n] = further_motor_clock(one, table[j]->data[k * table[j]->columns]);
+    }
+    if (t)
+        qsort(t, n, sizeof *t, compare_times);
+    return n;
+}
+
+static void put_corner(motor *self, double t, const corner *now)
+{
+    self->t[self->corner_count] = t;
+    self->thrust[self->corner_count] = now->thrust;
+    memcpy(self->across + self->corner_count * ACROSS_COUNT, now->across, sizeof now->across);
+    self->corner_count++;
+}
+
+// Puts the further motors to what the first is alone. A time at which something jumps has two
+// corners; what begins and what ends all has one.
+static ld_status join_further(motor *self, const ld_rocket *rocket, ld_error *error)
+{
+    motor alone = *self;
+    size_t count = gather_times(&alone, rocket, NULL);
+    double *t = malloc(count * sizeof *t);
+    self->t = NULL;
+    self->at = NULL;
+    self->corner_count = 0;
+    self->across = calloc(2 * count * ACROSS_COUNT, sizeof(double));
+    ld_status status = t && self->across ? make_room(self, 2 * count, alone.at != NULL, error)
+                                         : ld_fail(error, LD_ERR_MEMORY, "no memory for motors");
+    if (!status)
+        gather_times(&alone, rocket, t);
+    for (size_t k = 0; k < count && !status; k++) {
+        if (k > 0 && t[k] == t[k - 1])
+            continue;
+        corner before = corner_at(&alone, rocket, t[k], BEFORE),
+               after = corner_at(&alone, rocket, t[k], AFTER);
+        if (t[k] > t[0] && (t[k] == t[count - 1] || !is_same(&before, &after)))
+            put_corner(self, t[k], &before);
+        if (t[k] < t[count - 1])
+            put_corner(self, t[k], &after);
+    }
+    for (size_t k = 0; alone.at && k < self->corner_count; k++)
+        self->at[k] = masses_of_all(rocket, self->t[k]);
+    sum_impulse(self);
+    free(t);
+    free(alone.t);
+    free(alone.at);
+    free(alone.across);
+    return status;
+}
+
+ld_status motor_build(motor *self, const ld_rocket *rocket, int place, ld_error *error)
+{
+    ld_status status = build_alone(self, rocket, place, error);
+    if (!status && rocket->further_motor_count > 0 && !rocket->motor.absent)
+        status = join_further(self, rocket, error);
+    if (status)
+        motor_free(self);
+    return status;
 }
 
 void motor_free(motor *self)
@@ -201,11 +396,6 @@ void motor_free(motor *self)
     free(self->across);
     side_noise_free(&self->noise);
     *self = (motor){0};
-}
-
-static bool burning(const motor *self, int piece)
-{
-    return piece >= 0 && piece + 1 < (int)self->corner_count;
 }
 
 double motor_thrust(const motor *self, int piece, double t)
@@ -242,7 +432,7 @@ double motor_total_impulse(const motor *self)
 
 motor_across motor_across_at(const motor *self, int piece, double t)
 {
-    motor_across out = {{0}, {0}, {0}};
+    motor_across out = {0};
     if (!burning(self, piece))
         return out;
     const double *a = self->across + (size_t)piece * ACROSS_COUNT, *b = a + ACROSS_COUNT;
@@ -251,6 +441,9 @@ motor_across motor_across_at(const motor *self, int piece, double t)
         now[i] = a[i] + share * (b[i] - a[i]);
     if (a[ACROSS_DEVIATION] != 0 || b[ACROSS_DEVIATION] != 0)
         side_noise_at(&self->noise, t, out.force);
+    out.others = now[ACROSS_OTHERS];
+    out.others_force = v3_from(now + ACROSS_OTHERS_FORCE);
+    out.others_moment = v3_from(now + ACROSS_OTHERS_MOMENT);
     for (int i = 0; i < 2; i++) {
         out.force[i] = now[ACROSS_FORCE + i] + now[ACROSS_DEVIATION] * out.force[i];
         out.lean[i] = now[ACROSS_LEAN + i];

@@ -21,17 +21,29 @@ typedef struct rocket_mass {
     m3 J_dot;
 } rocket_mass;
 
-// Across the axis, linear between corners: the side force F_y, F_z in B and the deviation of its
-// noise [N]; eps_y, eps_z [-] and y, z [m] by which the nozzle has moved.
-enum { ACROSS_FORCE, ACROSS_DEVIATION = 2, ACROSS_LEAN, ACROSS_SHIFT = 5, ACROSS_COUNT = 7 };
+// Beside the thrust, linear between corners: the side force F_y, F_z in B and the deviation of its
+// noise [N]; eps_y, eps_z [-] and y, z [m] by which the nozzle has moved; of the further motors the
+// thrust, which is in that of all, their force [N] and moment about O1 [N m] in B.
+enum {
+    ACROSS_FORCE,
+    ACROSS_DEVIATION = 2,
+    ACROSS_LEAN,
+    ACROSS_SHIFT = 5,
+    ACROSS_OTHERS = 7,
+    ACROSS_OTHERS_FORCE,
+    ACROSS_OTHERS_MOMENT = 11,
+    ACROSS_COUNT = 14
+};
 
 // The same at one instant.
 typedef struct motor_across {
+    double others;
     double force[2], lean[2], shift[2];
+    v3 others_force, others_moment;
 } motor_across;
 
-// The thrust curve, scaled, cut into pieces between its corners, and those of other tables over
-// time; and what burns: with the impulse, or between masses evenly in time.
+// The thrust curve of all motors, scaled, cut into pieces between its corners, and those of other
+// tables over time; and what burns: with the impulse, or between masses evenly in time.
 typedef struct motor {
     size_t corner_count;
     double *t;               // [corner_count] s after ignition, owned

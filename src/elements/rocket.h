@@ -96,6 +96,17 @@ LD_INLINE void rocket_solve(const rocket_inertia *inertia, v3 f, v3 m, v3 *a, v3
     *a = v3_sub(v3_scale(1 / inertia->m, f), v3_cross(*alpha, inertia->c));
 }
 
+// The further motors' force and moment about O1, and their power.
+LD_INLINE void rocket_push_further(const motor_across *across, launching_instant *now)
+{
+    const rocket_state *rocket = &now->rocket;
+    v3 force = m3_apply(rocket->A_RB, across->others_force);
+    v3 moment = m3_apply(rocket->A_RB, across->others_moment);
+    now->f = v3_add(now->f, force);
+    now->m = v3_add(now->m, moment);
+    now->out->power[POWER_THRUST] += v3_dot(force, rocket->v_O1) + v3_dot(moment, rocket->w_B);
+}
+
 // Gravity, thrust and gyroscopic wrench about O1; their powers.
 LD_INLINE void rocket_forces(const ld_motor *thruster, launching_instant *now)
 {
@@ -109,7 +120,7 @@ LD_INLINE void rocket_forces(const ld_motor *thruster, launching_instant *now)
     const motor_across *across = &now->input->across;
     double ey = thruster->misalignment[0] + across->lean[0],
            ez = thruster->misalignment[1] + across->lean[1];
-    double along = now->input->thrust / sqrt(1 + ey * ey + ez * ez);
+    double along = (now->input->thrust - across->others) / sqrt(1 + ey * ey + ez * ez);
     v3 thrust = v3_make(along, along * ey + across->force[0], along * ez + across->force[1]);
     thrust = m3_apply(rocket->A_RB, thrust);
     v3 at = v3_make(thruster->at[0], thruster->at[1] + across->shift[0],
@@ -119,6 +130,8 @@ LD_INLINE void rocket_forces(const ld_motor *thruster, launching_instant *now)
     now->m = v3_add(v3_cross(c, weight), v3_cross(at, thrust));
     out->power[POWER_GRAVITY_ROCKET] = v3_dot(weight, v_C);
     out->power[POWER_THRUST] = v3_dot(thrust, v3_add(rocket->v_O1, v3_cross(w, at)));
+    if (across->others != 0)
+        rocket_push_further(across, now);
     // gyroscopic: -(m w x (w x c), c x the same + w x J w)
     v3 w_local = m3_apply_transposed(rocket->A_RB, w);
     v3 J_w = m3_apply(inertia->J, w_local);

@@ -19,3 +19,8 @@ double motor_clock(const ld_motor *motor, double t)
     double rise = motor->rise_scale == 1 ? t : fmin(t, motor_rise_time(motor));
     return (t + (motor->rise_scale - 1) * rise) * motor->time_scale + motor->delay;
 }
+
+double further_motor_clock(const ld_further_motor *motor, double t)
+{
+    return t * motor->time_scale + motor->delay;
+}

@@ -12,5 +12,6 @@ double motor_rise_time(const ld_motor *motor); // [s], unscaled
 // Time after ignition [s] of the tables' time t: the rise is stretched, what follows moves along;
 // then all is stretched and delayed.
 double motor_clock(const ld_motor *motor, double t);
+double further_motor_clock(const ld_further_motor *motor, double t); // without a rise of its own
 
 #endif

@@ -334,6 +334,8 @@ static void describe_drive(FILE *stream, const ld_model *model)
     if (motor) {
         fputs(gas ? " and " : "", stream);
         describe_motor(stream, &model->rocket.motor);
+        if (model->rocket.further_motor_count > 0)
+            fprintf(stream, ", and %d more", model->rocket.further_motor_count);
     }
     if (!gas && !motor)
         fprintf(stream, "none");

@@ -229,7 +229,7 @@ static void at_rest(const problem *the, const double *y, launcher_input *input)
     simulation_input(self, the->t, y, input);
     base->v = base->w = base->a = base->alpha = v3_zero();
     input->launching.thrust = 0;
-    input->launching.across = (motor_across){{0}, {0}, {0}};
+    input->launching.across = (motor_across){0};
     input->launching.pressure_piece = 0;
     input->formulation = LD_FORMULATION_REDUCED;
     if (!self->air || !the->going)

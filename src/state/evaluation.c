@@ -53,7 +53,7 @@ void simulation_surround(const launch_state *self, double t, const double *y,
 {
     double tau = t - self->t_ignition;
     input->thrust = motor_thrust(self->motor, self->piece, tau);
-    input->across = (motor_across){{0}, {0}, {0}};
+    input->across = (motor_across){0};
     if (self->motor->across)
         input->across = motor_across_at(self->motor, self->piece, tau);
     input->power = self->piece + 1 < (int)self->motor->corner_count;

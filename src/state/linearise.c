@@ -169,7 +169,7 @@ static int rates_of_whole(const launch_state *self, const linear_system *system,
     simulation_input(self, system->t, y, &input);
     input.formulation = LD_FORMULATION_REDUCED;
     input.launching.thrust = 0;
-    input.launching.across = (motor_across){{0}, {0}, {0}};
+    input.launching.across = (motor_across){0};
     if (launcher_evaluate(launcher, &input, &system->phase, y, &out))
         return -1;
     launcher_rates(launcher, y, &out, system->phase.rocket, y_dot);

@@ -180,7 +180,7 @@ static v3 wind(const dense *d, double t, v3 r, double altitude)
 
 typedef struct body {
     double m, T;
-    v3 c;
+    v3 c, further, turning; // of further motors the force, and the moment about O1
     matrix J;
     bool power;
 } body;
@@ -188,21 +188,22 @@ typedef struct body {
 static body body_at(const dense *d, double t)
 {
     const ld_rocket *rocket = &d->model->rocket;
-    const ld_motor *motor = &rocket->motor;
-    const double *row = motor->thrust.data;
     double since = t - d->model->flight.ignition, total = 0, burnt = 0;
-    body b = {.power = false};
-    for (size_t i = 0; i + 1 < motor->thrust.rows; i++, row += 2) {
-        double t0 = dense_motor_clock(motor, row[0]), t1 = dense_motor_clock(motor, row[2]);
-        double T0 = motor->thrust_scale * row[1], T1 = motor->thrust_scale * row[3];
-        total += (t1 - t0) * (T0 + T1) / 2;
-        if (since >= t1) {
-            burnt = total;
-        } else if (since >= t0) {
-            b.T = T0 + (T1 - T0) * (since - t0) / (t1 - t0);
-            burnt = total - (t1 - t0) * (T0 + T1) / 2 + (since - t0) * (T0 + b.T) / 2;
+    body b = {.power = since < dense_burn_out(rocket)};
+    for (int k = 0; k <= rocket->further_motor_count; k++) {
+        dense_curve curve = dense_curve_of(rocket, k);
+        double impulse[2], T = dense_curve_at(&curve, since, since, impulse);
+        burnt += impulse[0];
+        total += impulse[1];
+        if (k == 0) {
+            b.T = T;
+            continue;
         }
-        b.power = since < t1;
+        const ld_further_motor *one = &rocket->further_motor[k - 1];
+        v3 e = v3_make(1, one->misalignment[0], one->misalignment[1]);
+        v3 f = v3_scale(T / v3_norm(e), e);
+        b.further = v3_add(b.further, f);
+        b.turning = v3_add(b.turning, v3_cross(v3_from(one->at), f));
     }
     double x = total > 0 ? burnt / total : 0;
     b.m = rocket->full.mass + rocket->mass_error - x * rocket->propellant;
@@ -306,9 +307,11 @@ static void derivative(const dense *d, double t, const double *y, double *y_dot)
     v3 e_T = v3_make(1, across[2], across[3]);
     e_T = v3_scale(1 / v3_norm(e_T), e_T);
     v3 f_T = v3_scale(b.T, e_T), point = v3_make(motor->at[0], across[4], across[5]);
-    if (b.power && since >= motor->delay)
+    if (dense_motor_burns(motor, since))
         f_T = v3_add(f_T, v3_make(0, across[0], across[1]));
     v3 M = v3_add(v3_cross(v3_sub(point, b.c), f_T), m_a);
+    M = v3_add(M, v3_sub(b.turning, v3_cross(b.c, b.further)));
+    f_T = v3_add(f_T, b.further);
     // Euler, then the acceleration of O1
     v3 w_dot = solve(&b.J, v3_sub(M, v3_cross(w, through(&b.J, w))));
     v3 F = v3_add(v3_scale(b.m, rotate(unit, gravity(d, r_C), -1)), v3_add(f_T, f_a));
@@ -364,7 +367,8 @@ static double next_corner(const ld_model *model, double t)
 {
     const ld_wind *w = &model->environment.wind;
     double since = t + 1e-12 - model->flight.ignition;
-    double next = model->flight.ignition + dense_motor_corner(&model->rocket.motor, since);
+    double next = model->flight.ignition + fmin(dense_motor_corner(&model->rocket.motor, since),
+                                                dense_further_corner(&model->rocket, since));
     for (int i = 0; w->present && i < w->gust_count; i++) {
         const ld_gust *g = &w->gust[i];
         double fall = isnan(g->fall) ? g->rise : g->fall, at = g->start;

@@ -1295,6 +1295,19 @@ static void add_thrust(equations *eq, const jet_scene *scene, double thrust, con
     add_force(eq->other, &point, f);
 }
 
+static void add_further_thrust(equations *eq, const jet_scene *scene, const dense_conditions *on)
+{
+    for (int k = 0; k < LD_MAX_FURTHER_MOTORS; k++) {
+        jet3 at = jet3_constant(on->further[k].at), point = point_in(&scene->B, &at);
+        double f[3] = {0};
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                f[i] += scene->B.A.c[i][j].v * on->further[k].force[j];
+        add_force(eq->h, &point, f);
+        add_force(eq->other, &point, f);
+    }
+}
+
 // The air on what lies between the tip and the nose, by Simpson's rule: the force per length goes
 // with the lateral velocity of a point against the air, which is linear along the rocket. Put on at
 // O1 and at a point one metre before it, so that force and moment are right.
@@ -1615,20 +1628,25 @@ static void write_output(const dense_launch *dense, const dense_state *state, co
 }
 
 // Drag of the guide on one adaptor, at its centre or amid the guide's surfaces.
+// Of a table of two columns, linear, constant outside; 0 without rows.
+static double in_table(const ld_table *table, double x)
+{
+    double value = table->rows ? table->data[1] : 0;
+    for (size_t i = 1; i < table->rows; i++) {
+        const double *a = table->data + 2 * (i - 1), *b = a + 2;
+        value += (b[1] - a[1]) * fmin(1, fmax(0, (x - a[0]) / (b[0] - a[0])));
+    }
+    return value;
+}
+
 static void add_drag(equations *eq, const jet_scene *moving, const jet_scene *still,
                      const dense_conditions *on, int index, double rear)
 {
     const dense_launch *dense = moving->dense;
     const ld_rocket *rocket = &dense->model->rocket;
-    const ld_table *drag = &rocket->contact.drag;
-    if (!drag->rows || on->locked || on->frictionless || on->passed[index])
+    const ld_table *drag = &rocket->contact.drag, *by_speed = &rocket->contact.drag_over_speed;
+    if (on->locked || on->frictionless || on->passed[index] || drag->rows + by_speed->rows == 0)
         return;
-    double force = drag->data[1];
-    for (size_t i = 1; i < drag->rows; i++) {
-        const double *a = drag->data + 2 * (i - 1), *b = a + 2;
-        double share = (rear - rocket->start_at - a[0]) / (b[0] - a[0]);
-        force += (b[1] - a[1]) * fmin(1, fmax(0, share));
-    }
     jet3 center = jet3_constant((double[]){rocket->adaptor[index].at, 0, 0});
     center = point_in(&moving->B, &center);
     jet s = foot_of(moving, still, &center, rear + rocket->adaptor[index].at);
@@ -1646,6 +1664,7 @@ static void add_drag(equations *eq, const jet_scene *moving, const jet_scene *st
     slip_at(slip, moving, &section, place);
     for (int i = 0; i < 3; i++)
         along += slip[i] * section.A.c[i][0].v;
+    double force = in_table(drag, rear - rocket->start_at) + in_table(by_speed, fabs(along));
     force *= rocket->contact.drag_scale / rocket->adaptor_count;
     for (int i = 0; i < 3; i++)
         f[i] = -force * along / hypot(along, rocket->contact.friction_speed) * section.A.c[i][0].v;
@@ -1690,12 +1709,13 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     for (int i = 0; i < rocket->adaptor_count; i++)
         (dense->surface_count ? add_shoe : add_adaptor)(&eq, &moving, &still, conditions, i,
                                                         state->s + rocket->adaptor[i].at, output);
-    for (int i = 0; i < rocket->adaptor_count; i++)
-        add_drag(&eq, &moving, &still, conditions, i, state->s);
     add_thrust(&eq, &moving, conditions->thrust, conditions->across);
+    add_further_thrust(&eq, &moving, conditions);
     // constraints
     bool slotted = model->tubes.slot.kind == LD_SLOT_HELIX;
     jet s = foot_of(&moving, &still, &moving.B.r, state->s);
+    for (int i = 0; i < rocket->adaptor_count; i++)
+        add_drag(&eq, &moving, &still, conditions, i, s.v);
     add_breech(&eq, &moving, conditions, s, output);
     add_gas(&eq, &moving, conditions, &rear, s.v, output);
     add_crossflow(&eq, &moving, conditions, s.v, output);

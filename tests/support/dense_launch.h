@@ -69,10 +69,14 @@ typedef struct dense_conditions {
     double center[3];   // [m] in B, eccentricity included
     double inertia[3];  // [kg m2] about the mass centre, in B
     double products[3]; // [kg m2] J_xy, J_xz, J_yz of the matrix
-    double thrust;      // [N]
-    double across[6];   // [N] side force y, z, [-] direction (1, y, z) and [m] y, z of the nozzle
-    double pressure;    // [Pa] net, behind the rocket, where the travel does not say it
-    bool pressed;       // the pressure is on
+    double thrust;      // [N] of the first motor
+    // of each further motor the force [N] and where it acts [m], in B
+    struct {
+        double force[3], at[3];
+    } further[LD_MAX_FURTHER_MOTORS];
+    double across[6]; // [N] side force y, z, [-] direction (1, y, z) and [m] y, z of the nozzle
+    double pressure;  // [Pa] net, behind the rocket, where the travel does not say it
+    bool pressed;     // the pressure is on
     int slot_piece; // stretch of the slot's table: 0 as s says, 1 before its first point, 2 between
                     // the first and the second, ... (held by an integrator while it passes a point)
     bool locked;    // lock closed (slot friction off; slot `none`: roll held too)

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#include "model/blocks/motor.h"
+#include "model/blocks/rocket.h"
 
 // The table's time at which the rise ends.
 static inline double dense_motor_rise(const ld_motor *motor)
@@ -50,6 +50,14 @@ static inline double dense_motor_column(const ld_motor *motor, const ld_table *t
     return value;
 }
 
+// Whether it burns `since` ignition.
+static inline bool dense_motor_burns(const ld_motor *motor, double since)
+{
+    size_t rows = motor->thrust.rows;
+    return rows > 0 && since >= motor->delay &&
+           since < dense_motor_clock(motor, motor->thrust.data[2 * (rows - 1)]);
+}
+
 // F_y, F_z [N] of the side force without noise, eps_y, eps_z [-] and y, z [m] in all.
 static inline void dense_motor_across(const ld_motor *motor, double since, double across[6])
 {
@@ -62,6 +70,78 @@ static inline void dense_motor_across(const ld_motor *motor, double since, doubl
     for (size_t i = 0; i < 4; i++)
         across[2 + i] = dense_motor_column(motor, &motor->nozzle, 1 + i, since) +
                         (i < 2 ? motor->misalignment[i] : motor->at[i - 1]);
+}
+
+// A curve of thrust in seconds after ignition.
+typedef struct dense_curve {
+    const ld_table *table;
+    const ld_motor *motor; // whose clock the table has; NULL: scaled and delayed alone
+    double scale, delay, factor;
+} dense_curve;
+
+// Motor k of a rocket: 0 the first, then the further ones.
+static inline dense_curve dense_curve_of(const ld_rocket *rocket, int k)
+{
+    if (k == 0)
+        return (dense_curve){&rocket->motor.thrust, &rocket->motor, 0, 0,
+                             rocket->motor.thrust_scale};
+    const ld_further_motor *further = &rocket->further_motor[k - 1];
+    return (dense_curve){&further->thrust, NULL, further->time_scale, further->delay,
+                         further->thrust_scale};
+}
+
+static inline double dense_curve_time(const dense_curve *curve, size_t row)
+{
+    double t = curve->table->data[2 * row];
+    return curve->motor ? dense_motor_clock(curve->motor, t) : curve->delay + curve->scale * t;
+}
+
+// Thrust [N] `since` ignition, on the line that holds `middle`; the impulse so far and in all.
+static inline double dense_curve_at(const dense_curve *curve, double since, double middle,
+                                    double impulse[2])
+{
+    double thrust = 0;
+    impulse[0] = impulse[1] = 0;
+    for (size_t i = 0; i + 1 < curve->table->rows; i++) {
+        double t0 = dense_curve_time(curve, i), t1 = dense_curve_time(curve, i + 1);
+        double T0 = curve->factor * curve->table->data[2 * i + 1],
+               T1 = curve->factor * curve->table->data[2 * i + 3];
+        if (t1 == t0)
+            continue;
+        double now = T0 + (T1 - T0) * (since - t0) / (t1 - t0);
+        double in = fmin(fmax((since - t0) / (t1 - t0), 0), 1);
+        if (middle >= t0 && middle < t1)
+            thrust = now;
+        impulse[0] += (t1 - t0) * in * (T0 + (T1 - T0) * in / 2);
+        impulse[1] += (t1 - t0) * (T0 + T1) / 2;
+    }
+    return thrust;
+}
+
+// When the last motor is out.
+static inline double dense_burn_out(const ld_rocket *rocket)
+{
+    double end = -INFINITY;
+    for (int k = 0; k <= rocket->further_motor_count; k++) {
+        dense_curve curve = dense_curve_of(rocket, k);
+        if (curve.table->rows > 0)
+            end = fmax(end, dense_curve_time(&curve, curve.table->rows - 1));
+    }
+    return end;
+}
+
+// The first corner of a further motor after `since`; infinity.
+static inline double dense_further_corner(const ld_rocket *rocket, double since)
+{
+    double next = INFINITY;
+    for (int k = 1; k <= rocket->further_motor_count; k++) {
+        dense_curve curve = dense_curve_of(rocket, k);
+        for (size_t i = 0; i < curve.table->rows; i++) {
+            double t = dense_curve_time(&curve, i);
+            next = t > since ? fmin(next, t) : next;
+        }
+    }
+    return next;
 }
 
 // The first corner of a table after `since`; infinity.

@@ -110,32 +110,6 @@ static void base_at(const launch_run *launch, double t, const double *x, dense_b
     memcpy(base->A, tube.A.a, sizeof base->A);
 }
 
-// Thrust [N] at tau seconds of the table's clock, on the line between two points that holds
-// `middle`.
-static double thrust_at(const ld_motor *motor, double tau, double middle)
-{
-    const double *row = motor->thrust.data;
-    for (size_t i = 0; i + 1 < motor->thrust.rows; i++, row += 2)
-        if (middle >= row[0] && middle < row[2])
-            return motor->thrust_scale *
-                   (row[1] + (row[3] - row[1]) * (tau - row[0]) / (row[2] - row[0]));
-    return 0;
-}
-
-// Share of the propellant burnt after tau seconds of the table's clock.
-static double burnt_at(const ld_motor *motor, double tau)
-{
-    const double *row = motor->thrust.data;
-    double total = 0, burnt = 0;
-    for (size_t i = 0; i + 1 < motor->thrust.rows; i++, row += 2) {
-        double span = row[2] - row[0], part = fmin(fmax(tau - row[0], 0), span);
-        double slope = span > 0 ? (row[3] - row[1]) / span : 0;
-        total += 0.5 * (row[1] + row[3]) * span;
-        burnt += row[1] * part + 0.5 * slope * part * part;
-    }
-    return total > 0 ? burnt / total : 0;
-}
-
 double dense_pressure_at(const ld_pressure *given, double since, double middle)
 {
     const ld_table *table = &given->over_time;
@@ -154,14 +128,27 @@ void dense_rocket_at(const ld_model *model, double since, double middle, dense_c
     const ld_rocket *rocket = &model->rocket;
     const ld_motor *motor = &rocket->motor;
     const ld_mass_data *full = &rocket->full, *empty = &rocket->empty;
-    double tau = (since - motor->delay) / motor->time_scale,
-           between = (middle - motor->delay) / motor->time_scale;
-    double burnt = burnt_at(motor, tau);
-    on->thrust = thrust_at(motor, tau, between);
-    on->power =
-        motor->thrust.rows > 0 && between < motor->thrust.data[2 * (motor->thrust.rows - 1)];
+    double sum[2] = {0};
+    for (int k = 0; k <= rocket->further_motor_count; k++) {
+        dense_curve curve = dense_curve_of(rocket, k);
+        double impulse[2], T = dense_curve_at(&curve, since, middle, impulse);
+        sum[0] += impulse[0];
+        sum[1] += impulse[1];
+        if (k == 0) {
+            on->thrust = T;
+            continue;
+        }
+        const ld_further_motor *one = &rocket->further_motor[k - 1];
+        double e[3] = {1, one->misalignment[0], one->misalignment[1]};
+        for (int i = 0; i < 3; i++) {
+            on->further[k - 1].force[i] = T * e[i] / sqrt(1 + e[1] * e[1] + e[2] * e[2]);
+            on->further[k - 1].at[i] = one->at[i];
+        }
+    }
+    double burnt = sum[1] > 0 ? sum[0] / sum[1] : 0;
+    on->power = middle < dense_burn_out(rocket);
     dense_motor_across(motor, since, on->across);
-    if (!on->power || between < 0)
+    if (!dense_motor_burns(motor, middle))
         on->across[0] = on->across[1] = 0;
     on->mass = full->mass + rocket->mass_error - burnt * rocket->propellant;
     for (int i = 0; i < 3; i++) {
@@ -924,7 +911,9 @@ static void summarise(launch_run *launch, double t, const double *x,
 static double next_corner(const launch_run *launch, double t)
 {
     const ld_motor *motor = &launch->model->rocket.motor;
-    double next = launch->ignition + dense_motor_corner(motor, t + 1e-12 - launch->ignition);
+    double since = t + 1e-12 - launch->ignition;
+    double next = launch->ignition + fmin(dense_motor_corner(motor, since),
+                                          dense_further_corner(&launch->model->rocket, since));
     const ld_table *pressure = &launch->model->tubes.pressure.over_time;
     for (size_t i = 0; i < pressure->rows; i++)
         if (launch->ignition + pressure->data[2 * i] > t + 1e-12)

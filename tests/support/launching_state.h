@@ -85,6 +85,18 @@ static inline void draw_state(const launching_system *system, uint64_t *seed, bo
         c->input.across.lean[i] = 0.1 * draw(&other);
         c->input.across.shift[i] = 0.05 * draw(&other);
     }
+    // two further motors
+    for (int k = 0; k < 2; k++) {
+        double *force = c->dense.conditions.further[k].force;
+        double *place = c->dense.conditions.further[k].at;
+        v3_store(force, v3_add(v3_make(3000, 0, 0), draw_v3(&other, 2000)));
+        v3_store(place, draw_v3(&other, 0.3));
+        v3 pushes = v3_from(force), turns = v3_cross(v3_from(place), pushes);
+        c->input.across.others += v3_norm(pushes);
+        c->input.across.others_force = v3_add(c->input.across.others_force, pushes);
+        c->input.across.others_moment = v3_add(c->input.across.others_moment, turns);
+    }
+    c->input.thrust += c->input.across.others;
     c->phase.rocket = true;
     c->phase.locked = locked;
     for (int i = 0; i < LD_MAX_ADAPTORS; i++)
@@ -127,7 +139,7 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->products[0] = mass->J.a[0][1];
     conditions->products[1] = mass->J.a[0][2];
     conditions->products[2] = mass->J.a[1][2];
-    conditions->thrust = c->input.thrust;
+    conditions->thrust = c->input.thrust - c->input.across.others;
     for (int i = 0; i < 2; i++) {
         const ld_motor *given = &system->rocket->motor;
         conditions->across[i] = c->input.across.force[i];

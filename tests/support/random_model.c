@@ -427,6 +427,61 @@ static void draw_ends(uint64_t seed, const ld_tubes *tubes, ld_rocket *rocket)
     }
 }
 
+// Two corners of a table over time that begins at 0: y, z of each row.
+static ld_table draw_rows(uint64_t *seed, size_t columns, double size)
+{
+    double row[15] = {0};
+    for (size_t i = 0; i < 3; i++)
+        for (size_t k = 0; k < columns; k++)
+            row[i * columns + k] =
+                k == 0 ? 0.03 * (double)i * between(seed, 0.7, 1) : size * draw(seed);
+    return reference_table(3, columns, row);
+}
+
+// Thrust as it is: late, across the axis, by a nozzle that moves, of several motors; a guide whose
+// drag goes with the speed.
+static void draw_thrust(uint64_t seed, ld_rocket *rocket)
+{
+    ld_motor *motor = &rocket->motor;
+    if (chance(&seed, 0.2))
+        rocket->contact.drag_over_speed =
+            reference_table(2, 2,
+                            (double[]){between(&seed, 0, 3), between(&seed, 0, 500),
+                                       between(&seed, 4, 30), between(&seed, 0, 500)});
+    if (motor->absent || chance(&seed, 0.5))
+        return;
+    motor->delay = 0.01 * between(&seed, 0, 1);
+    scale(&seed, &motor->rise_scale);
+    ld_side_force *side = &motor->side_force;
+    side->present = chance(&seed, 0.7);
+    side->scale = between(&seed, -1, 1);
+    side->angle = between(&seed, -3, 3);
+    if (side->present)
+        side->force = draw_rows(&seed, 3, 200);
+    side->noise.present = side->present && chance(&seed, 0.5);
+    side->noise.corner = between(&seed, 5, 100);
+    side->noise.seed = choice(&seed, 100);
+    side->noise.harmonics = 1 + choice(&seed, 30);
+    if (side->noise.present)
+        side->noise.deviation = reference_table(1, 2, (double[]){0, between(&seed, 0, 100)});
+    if (chance(&seed, 0.5))
+        motor->nozzle = draw_rows(&seed, 5, 1e-3);
+    rocket->further_motor_count = choice(&seed, 4);
+    for (int i = 0; i < rocket->further_motor_count; i++) {
+        ld_further_motor *one = &rocket->further_motor[i];
+        double force = between(&seed, 100, 3e3), end = between(&seed, 0.02, 2);
+        *one = (ld_further_motor){.thrust_scale = 1, .time_scale = 1};
+        one->thrust = reference_table(3, 2, (double[]){0, force, 0.01, force, end, 0.3 * force});
+        scale(&seed, &one->thrust_scale);
+        scale(&seed, &one->time_scale);
+        one->delay = 0.1 * between(&seed, 0, 1);
+        for (int k = 0; k < 3; k++)
+            one->at[k] = 0.1 * draw(&seed);
+        for (int k = 0; k < 2; k++)
+            one->misalignment[k] = 0.05 * draw(&seed);
+    }
+}
+
 void draw_random_model(uint64_t seed, ld_model *model)
 {
     reference_model(model);
@@ -461,6 +516,7 @@ void draw_random_model(uint64_t seed, ld_model *model)
     draw_initial_shape(seed ^ 0x2545f491, &model->tubes);
     draw_wind_drag(seed ^ 0x6a09e667, model);
     draw_ends(seed ^ 0x1b873593, &model->tubes, &model->rocket);
+    draw_thrust(seed ^ 0x3c6ef372, &model->rocket);
 }
 
 void draw_joint(uint64_t seed, ld_model *model)

@@ -187,6 +187,49 @@ static void drag_takes_its_work(void **state)
     }
 }
 
+// Drag over the speed, F_0 + c v: with constant thrust T the speed goes as V (1 - exp(-k t)), the
+// way is its integral, with k = 2 c/m of two adaptors' halves until the front one leaves.
+static void drag_over_speed(void **state)
+{
+    (void)state;
+    ld_model model;
+    const double thrust = 6e3, F_0 = 500, c = 40, scale = 1.2;
+    rail(&model, 1e8);
+    model.gravity = 0;
+    ld_rocket *rocket = &model.rocket;
+    for (int i = 0; i < 2; i++)
+        rocket->adaptor[i].clearance = 0.1e-3;
+    model.tubes.guide.t_slot.gap = model.tubes.guide.t_slot.side_gap = 0;
+    rocket->motor.thrust.rows = 2;
+    memcpy(rocket->motor.thrust.data, (double[]){0, thrust, 5, thrust}, 4 * sizeof(double));
+    rocket->contact.drag_over_speed =
+        reference_table(3, 2, (double[]){0, F_0, 10, F_0 + 10 * c, 400, F_0 + 400 * c});
+    rocket->contact.drag = reference_table(1, 2, (double[]){0, 100});
+    rocket->contact.drag_scale = scale;
+    ld_summary summary = summary_of_run(&model);
+    double way[2] = {model.tubes.length - rocket->start_at - rocket->adaptor[1].at,
+                     rocket->adaptor[1].at};
+    double v = 0, t = 0;
+    for (int part = 0; part < 2; part++) {
+        double share = scale * (part ? 0.5 : 1), rate = share * c / mass;
+        double V = (thrust - share * (F_0 + 100)) / (share * c), lasts = 0.1;
+        for (int n = 0; n < 60; n++) { // Newton's steps for the way's end
+            double fade = exp(-rate * lasts);
+            double x = V * lasts + (v - V) * (1 - fade) / rate;
+            lasts -= (x - way[part]) / (V + (v - V) * fade);
+        }
+        v = V + (v - V) * exp(-rate * lasts);
+        t += lasts;
+    }
+    printf("  exit at %.4f m/s, without drag %.4f m/s\n", v,
+           sqrt(2 * thrust * (way[0] + way[1]) / mass));
+    CHECK_BELOW("exit speed, relative", summary.rocket[0].exit_speed / v - 1, 2e-8);
+    CHECK_BELOW("exit, relative", (summary.rocket[0].t_rear - summary.rocket[0].t_ignition) / t - 1,
+                3e-5);
+    CHECK_BELOW("energy balance, relative", summary.energy.residual_relative, 1e-12);
+    reference_model_free(&model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +237,7 @@ int main(void)
         cmocka_unit_test(springs_lift),
         cmocka_unit_test(preload_rubs),
         cmocka_unit_test(drag_takes_its_work),
+        cmocka_unit_test(drag_over_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

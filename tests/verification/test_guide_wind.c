@@ -65,6 +65,7 @@ static rest rest_of(const ld_model *model, double t)
     fresh_launch_make(&launch, model);
     if (simulation_equilibrium(&launch.state, t, y, &summary, &error))
         fail_msg("%s", error.text);
+    simulation_move_with_base(&launch.state, t, y);
     simulation_input(&launch.state, t, y, &input);
     assert_int_equal(simulation_loads(&launch.state, &input, y, &out, &loads), LAUNCHING_OK);
     launching_section_at(&launch.state.launcher.launching, y, model->tubes.length, &tip);
@@ -235,6 +236,80 @@ static void turbulence_passes(void **state)
     reference_model_free(&model);
 }
 
+// A base goes through air at rest as one at rest stands in the wind that this makes.
+static void go_or_stand(ld_model *model, bool goes)
+{
+    const double along = -9, aside = 24; // of the base, in I
+    let_the_wind_blow(model, goes ? 0 : hypot(along, aside), atan2(-aside, -along));
+    model->base.kind = LD_BASE_PRESCRIBED;
+    model->base.azimuth = 0.6;
+    model->base.elevation = elevation;
+    model->base.velocity[0] = goes ? along : 0;
+    model->base.velocity[2] = goes ? aside : 0;
+    model->tubes.wind_drag_count = 1;
+    model->tubes.wind_drag[0] = (ld_wind_drag){0.4, model->tubes.length, 0.3, 1.2};
+}
+
+// In equilibrium, which holds the base and lets the air pass, and in a launch from a soft guide.
+static void moving_base(void **state)
+{
+    (void)state;
+    rest found[2];
+    ld_summary summary[2];
+    for (int goes = 0; goes < 2; goes++) {
+        ld_model model;
+        cantilever(&model, 1e4, 6);
+        go_or_stand(&model, goes);
+        found[goes] = rest_of(&model, 0.3);
+        reference_model_free(&model);
+        reference_model(&model);
+        model.tubes.section[0].bending_stiffness *= 0.1;
+        model.tubes.modes.bending = 3;
+        model.tubes.modes.torsion = 1;
+        model.run.tolerance = 1e-9;
+        go_or_stand(&model, goes);
+        summary[goes] = summary_of_run(&model);
+        reference_model_free(&model);
+    }
+    double size = v3_norm(found[0].force);
+    CHECK_BELOW("tip of a moving base, relative",
+                v3_norm(v3_sub(found[1].tip, found[0].tip)) / hypot(found[0].tip.y, found[0].tip.z),
+                1e-13);
+    CHECK_BELOW("force on it, relative", v3_norm(v3_sub(found[1].force, found[0].force)) / size,
+                1e-13);
+    const ld_rocket_summary *a = &summary[0].rocket[0], *b = &summary[1].rocket[0];
+    CHECK_NEAR("exit speed [m/s]", b->exit_speed, a->exit_speed, 5e-9);
+    CHECK_NEAR("pitch rate [rad/s]", b->pitch_rate, a->pitch_rate, 5e-9);
+    CHECK_NEAR("yaw rate [rad/s]", b->yaw_rate, a->yaw_rate, 3e-8);
+}
+
+// A mast whose foot stands h above the point about which the base rolls: the air passes with
+// w (h + x). The force is k w^2 int (h + x)^2 dx, at the instant at which the roll is 0.
+static void rolling_base(void **state)
+{
+    (void)state;
+    const double amplitude = 0.2, frequency = 0.4, h = 1.5;
+    ld_model model;
+    cantilever(&model, 1e5, 6);
+    let_the_wind_blow(&model, 0, 0);
+    model.base.kind = LD_BASE_PRESCRIBED;
+    model.base.elevation = 0.5 * acos(-1);
+    model.base.at[1] = h;
+    model.base.roll = (ld_sines){1, {{amplitude, frequency, 0}}};
+    model.tubes.wind_drag_count = 1;
+    model.tubes.wind_drag[0] = (ld_wind_drag){0, model.tubes.length, 0.3, 1.2};
+    rest found = rest_of(&model, 0);
+    double w = amplitude * 2 * acos(-1) * frequency, L = model.tubes.length, end = h + L;
+    double k = 0.5 * density * 0.3 * 1.2 * w * w;
+    double force = k * (end * end * end - h * h * h) / 3;
+    double moment = k * (pow(end, 4) - pow(h, 4)) / 4 - h * force;
+    // the tip goes towards z of I; x of T is up
+    CHECK_BELOW("force, relative", found.force.z / -force - 1, 5e-10);
+    CHECK_BELOW("along y [N]", found.force.y, 2e-14);
+    CHECK_BELOW("moment, relative", found.moment.y / moment - 1, 2e-9);
+    reference_model_free(&model);
+}
+
 // A soft guide in a gust that rises, holds and falls during the launch.
 static void energy_in_gusts(void **state)
 {
@@ -266,6 +341,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cantilever_bends),  cmocka_unit_test(modes_converge),
         cmocka_unit_test(mast_in_a_profile), cmocka_unit_test(turbulence_passes),
+        cmocka_unit_test(moving_base),       cmocka_unit_test(rolling_base),
         cmocka_unit_test(energy_in_gusts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

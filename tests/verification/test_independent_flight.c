@@ -137,6 +137,14 @@ static void test_odd_flights(void **state)
             "1 N]], scale: 0.7, angle: 50 deg}",
             "rocket.motor.nozzle=[[0.05 s, 1 mrad, 0 rad, 0 m, 0.1 mm], [0.2 s, 0 rad, -2 mrad, 1 "
             "mm, 0 m], [0.7 s, 0 rad, 0 rad, 0 m, 0 m]]");
+    COMPARE("two further motors, lit apart", 2e-7, "flight.ignition=0.05 s",
+            "rocket.motor.misalignment=0.3 0.5 mrad", "rocket.motor.delay=30 ms",
+            "rocket.motor.nozzle=[[0.05 s, 1 mrad, 0 rad, 0 m, 0.1 mm], [0.2 s, 0 rad, -2 mrad, 1 "
+            "mm, 0 m]]",
+            "rocket.further_motors=[{thrust: [[0 s, 300 N], [0.4 s, 500 N], [0.4 s, 100 N], [0.6 "
+            "s, 50 N]], at: 0.1 0.05 0.02 m, misalignment: -20 10 mrad, delay: 0.11 s, "
+            "thrust_scale: 1.1, time_scale: 0.9}, {thrust: [[0 s, 0 N], [0.3 s, 400 N], [0.5 s, 0 "
+            "N]], at: 0.1 -0.05 0.02 m, delay: 0.17 s}]");
     COMPARE(
         "plain body", 2e-7, "flight.ignition=-10 s",
         "rocket.aerodynamics={model: body, area: 0.02 m2, drag: 0.8, damping: -1 -2 -3, lengths: "

@@ -261,6 +261,40 @@ static void three_surfaces(ld_model *model)
     surface[4] = (ld_surface){"", {0, -0.08}, -80 * degree, 0.3e-3, LD_SURFACE_ROUND};
 }
 
+// Late, slow to rise, across the axis, by a nozzle that moves; two further motors, one of them lit
+// and out on the way; a drag over travel and speed.
+static void thrust_as_it_is(ld_model *model)
+{
+    const double side[] = {0, 0, 0, 0.02, 300, -120, 0.12, -50, 80},
+                 nozzle[] = {0.01, 0, 0, 0, 1e-3, 0.15, 4e-3, -2e-3, 1e-3, 0},
+                 early[] = {0, 0, 0.01, 3e3, 0.06, 2e3, 0.07, 0}, late[] = {0, 4e3, 2, 2e3},
+                 travel[] = {0, 300, 1, 100}, speed[] = {0, 50, 20, 400};
+    ld_rocket *rocket = &model->rocket;
+    ld_motor *motor = &rocket->motor;
+    motor->delay = 8e-3;
+    motor->rise_scale = 1.6;
+    motor->time_scale = 0.9;
+    motor->side_force = (ld_side_force){
+        .present = true, .scale = 0.8, .angle = 0.4, .force = reference_table(3, 3, side)};
+    motor->nozzle = reference_table(2, 5, nozzle);
+    rocket->further_motor_count = 2;
+    rocket->further_motor[0] = (ld_further_motor){.thrust = reference_table(4, 2, early),
+                                                  .at = {-0.1, 0.05, 0.03},
+                                                  .misalignment = {-0.02, 0.05},
+                                                  .thrust_scale = 0.9,
+                                                  .time_scale = 1.1,
+                                                  .delay = 0.03};
+    rocket->further_motor[1] = (ld_further_motor){.thrust = reference_table(2, 2, late),
+                                                  .at = {0.1, -0.04, 0.02},
+                                                  .misalignment = {0.03, 0},
+                                                  .thrust_scale = 1,
+                                                  .time_scale = 1,
+                                                  .delay = 0.09};
+    rocket->contact.drag = reference_table(2, 2, travel);
+    rocket->contact.drag_over_speed = reference_table(2, 2, speed);
+    rocket->contact.drag_scale = 1.3;
+}
+
 static double largest(int count, const double *a, const double *b)
 {
     double worst = 0;
@@ -377,6 +411,7 @@ int main(void)
         {"lankarani-nikravesh", lankarani, 100e-6, usual},
         {"bilateral", bilateral, 100e-6, usual},
         {"undeformed start", undeformed, 100e-6, usual},
+        {"thrust as it is", thrust_as_it_is, 100e-6, usual},
         {"two adaptors", two_adaptors, 100e-6, usual},
         {"few modes", few_modes, 100e-6, usual},
         {"uneven tube", uneven_tube, 100e-6, uneven},

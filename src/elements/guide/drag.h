@@ -1,9 +1,10 @@
 // Drag of the guide: a force against sliding, given as such (model.md, section 5).
 //
-// D over the travel s' = s - start_at is that of all n adaptors; until it leaves the guide each
-// takes D/n. On the rocket at W of the adaptor's section, the opposite on the section at the same
-// point, with v = e_x . v_rel there:  -D/n v/sqrt(v^2 + v_eps^2) e_x.  W is the adaptor's centre,
-// on surfaces the middle of their points. None while a lock holds.
+// D over the travel s' = s - start_at, to which another over the speed |v| is added, is that of all
+// n adaptors; until it leaves the guide each takes D/n. On the rocket at W of the adaptor's
+// section, the opposite on the section at the same point, with v = e_x . v_rel there:  -D/n
+// v/sqrt(v^2 + v_eps^2) e_x.  W is the adaptor's centre, on surfaces the middle of their points.
+// None while a lock holds.
 #ifndef LD_ELEMENTS_DRAG_H
 #define LD_ELEMENTS_DRAG_H
 
@@ -22,8 +23,10 @@ LD_INLINE void drag_adaptor(const int lanes, const drag_system *self, const adap
                             const tube_system *guide, int i, launching_instant *now)
 {
     const rocket_state *rocket = &now->rocket;
-    double slope, force = table_linear_at(&self->given->drag, rocket->s - self->start, &slope);
-    force *= self->given->drag_scale / adaptors->count;
+    const ld_contact *given = self->given;
+    double slope, force = 0;
+    if (given->drag.rows > 0)
+        force = table_linear_at(&given->drag, rocket->s - self->start, &slope);
     adaptor_state adaptor;
     adaptor_load(adaptors, guide, &now->tube, rocket, i, &adaptor);
     adaptor_rates(&now->tube, rocket, &adaptor);
@@ -35,6 +38,9 @@ LD_INLINE void drag_adaptor(const int lanes, const drag_system *self, const adap
     v3 v_W = v3_add(rocket->v_O1, v3_cross(rocket->w_B, v3_sub(W, rocket->p1)));
     v3 v_rel = v3_sub(v_W, adaptor_wall_velocity(&now->tube, &adaptor, W, from_foot));
     double v = v3_dot(axis, v_rel), v_eps = adaptors->law.v_eps;
+    if (given->drag_over_speed.rows > 0)
+        force += table_linear_at(&given->drag_over_speed, fabs(v), &slope);
+    force *= given->drag_scale / adaptors->count;
     double drag = force * v / sqrt(v * v + v_eps * v_eps);
     v3 on_rocket = v3_scale(-drag, axis);
     now->out->power[POWER_CONTACT_FRICTION] -= drag * v;
@@ -56,7 +62,8 @@ LD_INLINE void drag_add(const int lanes, const drag_system *self, const adaptor_
 LD_INLINE void drag_build(const ld_rocket *rocket, const surface_set *surfaces, drag_system *self)
 {
     const ld_contact *contact = &rocket->contact;
-    *self = (drag_system){.given = contact->drag.rows > 0 ? contact : NULL,
+    bool any = contact->drag.rows > 0 || contact->drag_over_speed.rows > 0;
+    *self = (drag_system){.given = any ? contact : NULL,
                           .start = rocket->start_at,
                           .on_surfaces = surfaces->count > 0,
                           .y = surfaces->line_y,

@@ -65,7 +65,8 @@ typedef struct ld_contact {
     double friction_speed;        ///< [m/s] v_eps, of tube contact and slot
     ld_table drag;                ///< [m, N] of all adaptors in the guide over the travel from
                                   ///< start_at; no rows: none
-    double drag_scale;            ///< [-] factor on it
+    ld_table drag_over_speed;     ///< [m/s, N] added, over the sliding speed; no rows: none
+    double drag_scale;            ///< [-] factor on both
 } ld_contact;
 
 #endif

@@ -13,6 +13,7 @@ enum {
     LD_MAX_RAIL_JOINTS = 10,
     LD_MAX_ADAPTORS = 8,
     LD_MAX_PARACHUTES = 8,
+    LD_MAX_FURTHER_MOTORS = 4,
     LD_LINE_PLACES = 12, ///< places of a line in results
     LD_MAX_SURFACES = 12,
     LD_MAX_AIR_SURFACES = 8, ///< nose, body, tail, fins

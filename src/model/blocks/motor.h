@@ -1,4 +1,4 @@
-/// Thrust and what burns: the block `rocket.motor`.
+/// Thrust and what burns: the blocks `rocket.motor` and `rocket.further_motors`.
 #ifndef LD_MODEL_BLOCKS_MOTOR_H
 #define LD_MODEL_BLOCKS_MOTOR_H
 
@@ -51,5 +51,18 @@ typedef struct ld_motor {
     ld_table nozzle; ///< t [s], eps_y, eps_z [-], y, z [m] besides `misalignment` and `at`; linear,
                      ///< constant outside
 } ld_motor;
+
+/// A motor besides: `rocket.further_motors`.
+typedef struct ld_further_motor {
+    ld_table thrust;        ///< as of ld_motor; so the rest
+    double at[3];           ///< [m] in B
+    double misalignment[2]; ///< [-]
+    double thrust_scale;    ///< [-]
+    double time_scale;      ///< [-]
+    double delay;           ///< [s] from ignition
+    ld_table masses;        ///< of a part on the line through `at` along x; empty: what burns goes
+                            ///< with the impulse of all motors
+    double masses_at;       ///< [m]
+} ld_further_motor;
 
 #endif

@@ -42,6 +42,8 @@ typedef struct ld_rocket {
     double knob_angle; ///< [rad] gamma_b
     ld_lock lock;
     ld_motor motor;
+    int further_motor_count;
+    ld_further_motor further_motor[LD_MAX_FURTHER_MOTORS];
     ld_aerodynamics aerodynamics;
     ld_air_brakes air_brakes;
     int parachute_count;

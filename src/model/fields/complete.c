@@ -83,6 +83,13 @@ static void complete_empty(ld_model *model)
     const ld_rocket *rocket = &model->rocket;
     size_t rows = rocket->motor.masses.rows;
     ld_mass_data last = rows > 0 ? masses_at(rocket, rows - 1) : rocket->full;
+    if (rows > 0 && rocket->further_motor_count > 0) {
+        v3 center;
+        m3 grown = masses_of_parts(rocket, INFINITY, &last.mass, &center);
+        v3_store(last.center, center);
+        for (int i = 0; i < 3; i++)
+            last.inertia[i] = rocket->full.inertia[i] + grown.a[i][i];
+    }
     complete_number(&empty->mass, last.mass, &model->completed.empty_mass);
     for (int i = 0; i < 3; i++) {
         complete_number(&empty->center[i], last.center[i], &model->completed.empty_center[i]);
@@ -119,6 +126,10 @@ static double time_to_leave(const ld_model *model)
     const ld_motor *motor = &model->rocket.motor;
     double end = fmax(motor_clock(motor, last_time(&motor->thrust)),
                       last_time(&model->tubes.pressure.over_time));
+    for (int i = 0; i < model->rocket.further_motor_count; i++) {
+        const ld_further_motor *further = &model->rocket.further_motor[i];
+        end = fmax(end, further_motor_clock(further, last_time(&further->thrust)));
+    }
     return end > 0 ? end + 1 : 10;
 }
 

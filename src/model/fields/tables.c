@@ -1017,6 +1017,11 @@ static const field_row drag_columns[] = {
     {"drag", .unit = "N", FROM_TO(0, 1e9)},
 };
 static const table_format drag_table = {TABLE_CONSTANT, 2, drag_columns, NULL};
+static const field_row speed_drag_columns[] = {
+    {"speed", .unit = "m/s", FROM_TO(0, 1e4)},
+    {"drag", .unit = "N", FROM_TO(0, 1e9)},
+};
+static const table_format speed_drag_table = {TABLE_CSV, 2, speed_drag_columns, NULL};
 static const field_row contact_fields[] = {
     {"law", CHOICE(ld_contact, law, law_words), DEFAULT(0),
      .doc = "force over penetration; on the axis by springs (bilateral) or exactly (ideal)"},
@@ -1041,8 +1046,11 @@ static const field_row contact_fields[] = {
      .doc =
          "force of the guide against sliding, constant or over the travel from start_at (linear, "
          "constant outside); each adaptor in the guide takes an equal share"},
+    {"drag_over_speed", TABLE(ld_contact, drag_over_speed, speed_drag_table), .initial_doc = "0",
+     .doc = "added to `drag`, over the sliding speed of each adaptor, of either sign (linear, "
+            "constant outside)"},
     {"drag_scale", NUMBER(ld_contact, drag_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
-     .doc = "factor on `drag`"},
+     .doc = "factor on `drag` and `drag_over_speed`"},
     {0}};
 static const field_block contact_block = {.fields = contact_fields};
 
@@ -1182,6 +1190,25 @@ static const field_row motor_fields[] = {
             "outside"},
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
+static const field_row further_motor_fields[] = {
+    {"thrust", TABLE(ld_further_motor, thrust, thrust_table), .required = true,
+     .doc = "as of rocket.motor, as what follows"},
+    {"at", VECTOR(ld_further_motor, at, "m", 3), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "point of action in B"},
+    {"misalignment", VECTOR(ld_further_motor, misalignment, "rad", 2), FROM_TO(-1, 1), DEFAULT(0),
+     .doc = "eps_y, eps_z: thrust along (1, eps_y, eps_z) of B"},
+    {"thrust_scale", NUMBER(ld_further_motor, thrust_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the thrust"},
+    {"time_scale", NUMBER(ld_further_motor, time_scale, ""), ABOVE_TO(0, 1000), DEFAULT(1),
+     .doc = "factor on the times of the tables"},
+    {"delay", NUMBER(ld_further_motor, delay, "s"), FROM_TO(0, 10000), DEFAULT(0),
+     .doc = "from ignition to the beginning of the motor's tables"},
+    {"masses", TABLE(ld_further_motor, masses, masses_table), .initial_doc = "none",
+     .doc = "of a part on the line through `at` along x; only with rocket.motor.masses"},
+    {"masses_at", NUMBER(ld_further_motor, masses_at, "m"), FROM_TO(-100, 100), DEFAULT(0),
+     .doc = "x of B from which the centres of `masses` count"},
+    {0}};
+static const field_block further_motor_block = {.fields = further_motor_fields};
 
 static const field_word aerodynamics_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_word aerodynamics_models[] = {{"table", LD_AERODYNAMICS_TABLE},
@@ -1539,6 +1566,11 @@ static const field_row rocket_fields[] = {
     {"motor", BLOCK(ld_model, rocket.motor, motor_block), .required = true,
      NOT_IN_FLIGHT("none in flight only"), SWITCH(ld_model, rocket.motor.absent, motor_words),
      .other_is_bool = true, .doc = "thrust; `none`: flight only, or launch by tubes.pressure"},
+    {"further_motors",
+     LIST(ld_model, rocket.further_motor, rocket.further_motor_count, further_motor_block, 0,
+          LD_MAX_FURTHER_MOTORS),
+     .silent = true, .initial_doc = "none",
+     .doc = "lit by the same signal, each after its delay; only with a motor"},
     {"parachutes",
      LIST(ld_model, rocket.parachute, rocket.parachute_count, parachute_block, 0,
           LD_MAX_PARACHUTES),

@@ -330,20 +330,42 @@ static void slot_rules(const rule_set *rules)
         rising_rule(rules, "tubes.slot.angle.#", &slot->angle, "m", false);
 }
 
+static bool masses_fall(const rule_set *rules, const char *path, const ld_table *table)
+{
+    for (size_t k = 1; k < table->rows; k++) {
+        const double *row = &table->data[k * table->columns], *before = row - table->columns;
+        if (row[MASSES_MASS] > before[MASSES_MASS]) {
+            report_broken(rules, path, (int)k + 1, "%g kg is more than the %g kg of the row before",
+                          row[MASSES_MASS], before[MASSES_MASS]);
+            return false;
+        }
+    }
+    return true;
+}
+
+// A table of masses ends no later than the thrust.
+static void end_of_masses_rule(const rule_set *rules, const char *path, const ld_table *table,
+                               const ld_table *thrust)
+{
+    double end = thrust->rows ? thrust->data[(thrust->rows - 1) * thrust->columns] : 0;
+    double last = table->data[(table->rows - 1) * table->columns];
+    if (last > end)
+        report_broken(
+            rules, path, 0,
+            "ends at %g s, after the thrust, at %g s; give the thrust a last row of 0 N there",
+            last, end);
+}
+
 // At every row the rocket must be a body, lighter than before or as heavy.
 static void table_of_masses_rows(const rule_set *rules, const ld_table *table)
 {
     const char *path = "rocket.motor.masses.#";
     const ld_rocket *rocket = &rules->model->rocket;
+    if (!masses_fall(rules, path, table))
+        return;
     for (size_t k = 0; k < table->rows; k++) {
-        const double *row = &table->data[k * table->columns];
         char row_path[64];
         snprintf(row_path, sizeof row_path, "rocket.motor.masses.%zu", k + 1);
-        if (k > 0 && row[MASSES_MASS] > row[MASSES_MASS - (int)table->columns]) {
-            report_broken(rules, path, (int)k + 1, "%g kg is more than the %g kg of the row before",
-                          row[MASSES_MASS], row[MASSES_MASS - (int)table->columns]);
-            return;
-        }
         ld_mass_data now = masses_at(rocket, k);
         if (now.mass <= 0) {
             report_broken(rules, path, (int)k + 1, "leaves no mass of the rocket");
@@ -365,8 +387,6 @@ static void table_of_masses_rules(const rule_set *rules)
     const ld_model *model = rules->model;
     const ld_table *table = &model->rocket.motor.masses, *thrust = &model->rocket.motor.thrust;
     const char *path = "rocket.motor.masses";
-    const double *last = &table->data[(table->rows - 1) * table->columns];
-    double end = thrust->rows ? thrust->data[(thrust->rows - 1) * thrust->columns] : 0;
     rising_rule(rules, "rocket.motor.masses.#", table, "s", false);
     if (!model->completed.empty_mass || !model->completed.empty_center[0] ||
         !model->completed.empty_inertia[0])
@@ -375,11 +395,7 @@ static void table_of_masses_rules(const rule_set *rules)
     if (!model->completed.propellant)
         report_broken(rules, "rocket.propellant", 0,
                       "given together with motor.masses, which sets it; give one of them");
-    if (last[MASSES_TIME] > end)
-        report_broken(
-            rules, path, 0,
-            "ends at %g s, after the thrust, at %g s; give the thrust a last row of 0 N there",
-            last[MASSES_TIME], end);
+    end_of_masses_rule(rules, path, table, thrust);
     if (table->data[MASSES_MASS] > model->rocket.full.mass * (1 + 1e-9))
         report_broken(rules, "rocket.motor.masses.1", 0,
                       "%g kg is more than the whole rocket, of %g kg", table->data[MASSES_MASS],
@@ -504,6 +520,8 @@ static void held_rules(const rule_set *rules)
 static void contact_rules(const rule_set *rules)
 {
     const ld_contact *contact = &rules->model->rocket.contact;
+    rising_rule(rules, "rocket.contact.drag.#", &contact->drag, "m", false);
+    rising_rule(rules, "rocket.contact.drag_over_speed.#", &contact->drag_over_speed, "m/s", false);
     if ((int)contact->law < 0)
         return;
     if (contact_has(contact->law, LD_CONTACT_HELD))
@@ -521,16 +539,18 @@ static void contact_rules(const rule_set *rules)
             "requires the law kelvin-voigt or bilateral; this law damps by its restitution");
 }
 
-static void thrust_rules(const rule_set *rules)
+// Of the motor at `path`.
+static void thrust_rules(const rule_set *rules, const char *path, const ld_table *thrust)
 {
-    const ld_table *thrust = &rules->model->rocket.motor.thrust;
     double impulse = 0, greatest = 0;
+    char whole[64], row[64];
+    snprintf(whole, sizeof whole, "%s.thrust", path);
+    snprintf(row, sizeof row, "%s.thrust.#", path);
     if (thrust->rows == 0)
         return;
-    rising_rule(rules, "rocket.motor.thrust.#", thrust, "s", true);
+    rising_rule(rules, row, thrust, "s", true);
     if (thrust->data[0] > 0)
-        report_broken(rules, "rocket.motor.thrust.1", 0, "the first time must be 0 s, not %g s",
-                      thrust->data[0]);
+        report_broken(rules, row, 1, "the first time must be 0 s, not %g s", thrust->data[0]);
     for (size_t i = 1; i < thrust->rows; i++) {
         const double *a = &thrust->data[2 * (i - 1)], *b = &thrust->data[2 * i];
         impulse += (b[0] - a[0]) * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
@@ -539,16 +559,15 @@ static void thrust_rules(const rule_set *rules)
     for (size_t i = 0; i < thrust->rows; i++)
         if (thrust->data[2 * i + 1] < -0.1 * greatest) {
             report_broken(
-                rules, "rocket.motor.thrust.#", (int)i + 1,
+                rules, row, (int)i + 1,
                 "%g N; at most a tenth of the greatest thrust may be measured below 0, as 0",
                 thrust->data[2 * i + 1]);
             return;
         }
     if (impulse == 0)
-        report_broken(rules, "rocket.motor.thrust", 0, "its impulse is 0 N.s");
+        report_broken(rules, whole, 0, "its impulse is 0 N.s");
     if (impulse > 1e100)
-        report_broken(rules, "rocket.motor.thrust", 0, "its impulse is %g N.s, out of range",
-                      impulse);
+        report_broken(rules, whole, 0, "its impulse is %g N.s, out of range", impulse);
 }
 
 static void side_noise_rules(const rule_set *rules, const ld_side_noise *noise)
@@ -581,6 +600,46 @@ static void side_force_rules(const rule_set *rules)
     rising_rule(rules, "rocket.motor.side_force.force.#", &side->force, "s", false);
     if (side->noise.present)
         side_noise_rules(rules, &side->noise);
+}
+
+static void further_masses_rules(const rule_set *rules, const char *motor,
+                                 const ld_further_motor *given)
+{
+    char whole[64], row[64];
+    snprintf(whole, sizeof whole, "%s.masses", motor);
+    snprintf(row, sizeof row, "%s.masses.#", motor);
+    rising_rule(rules, row, &given->masses, "s", false);
+    masses_fall(rules, row, &given->masses);
+    end_of_masses_rule(rules, whole, &given->masses, &given->thrust);
+    if (rules->model->rocket.motor.masses.rows == 0)
+        report_broken(rules, whole, 0, "requires rocket.motor.masses");
+}
+
+static void further_motor_rules(const rule_set *rules)
+{
+    const ld_rocket *rocket = &rules->model->rocket;
+    const ld_mass_data *empty = &rocket->empty;
+    bool losing = false;
+    for (int i = 0; i < rocket->further_motor_count; i++) {
+        char path[48];
+        snprintf(path, sizeof path, "rocket.further_motors.%d", i + 1);
+        thrust_rules(rules, path, &rocket->further_motor[i].thrust);
+        if (rocket->further_motor[i].masses.rows > 0)
+            further_masses_rules(rules, path, &rocket->further_motor[i]);
+        losing |= rocket->further_motor[i].masses.rows > 0;
+    }
+    if (losing && empty->mass <= 0)
+        report_broken(rules, "rocket.further_motors", 0,
+                      "their masses leave no mass of the rocket");
+    else if (losing && !(empty->inertia[0] > 0 && empty->inertia[1] > 0 && empty->inertia[2] > 0))
+        report_broken(
+            rules, "rocket.further_motors", 0,
+            "their masses leave moments of inertia of %g %g %g kg.m2 about the mass centre",
+            empty->inertia[0], empty->inertia[1], empty->inertia[2]);
+    if (rocket->further_motor_count > 0 && rocket->motor.absent)
+        report_broken(rules, "rocket.further_motors", 0, "requires rocket.motor");
+    if (rocket->further_motor_count > 0 && rocket->motor.jet_damping == LD_JET_DAMPING_YES)
+        report_broken(rules, "rocket.motor.jet_damping", 0, "not with further motors");
 }
 
 static void initial_shape_rules(const rule_set *rules)
@@ -936,8 +995,9 @@ void model_check_rules(const ld_model *model, rule_report *report, void *self)
     else
         start_rules(&all);
     mass_rules(&all);
-    thrust_rules(&all);
+    thrust_rules(&all, "rocket.motor", &model->rocket.motor.thrust);
     side_force_rules(&all);
+    further_motor_rules(&all);
     environment_rules(&all);
     aerodynamics_rules(&all);
     brakes_rules(&all);

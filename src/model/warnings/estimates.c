@@ -93,33 +93,61 @@ static double surfaces(const plausible_entry *at)
 
 // ---- what drives the rocket
 
+static double peak_of(const ld_table *thrust)
+{
+    double peak = 0;
+    for (size_t i = 0; i < thrust->rows; i++)
+        peak = fmax(peak, thrust->data[2 * i + 1]);
+    return peak;
+}
+
+// Of several motors the sum of what each has.
 double estimate_peak_thrust(const plausible_entry *at)
 {
-    const ld_motor *motor = &at->model->rocket.motor;
-    double peak = 0;
-    for (size_t i = 0; i < motor->thrust.rows; i++)
-        peak = fmax(peak, motor->thrust.data[2 * i + 1]);
-    return peak * motor->thrust_scale;
+    const ld_rocket *rocket = &at->model->rocket;
+    double peak = peak_of(&rocket->motor.thrust) * rocket->motor.thrust_scale;
+    for (int i = 0; i < rocket->further_motor_count; i++)
+        peak += peak_of(&rocket->further_motor[i].thrust) * rocket->further_motor[i].thrust_scale;
+    return peak;
 }
 
 double estimate_impulse(const plausible_entry *at)
 {
-    const ld_motor *motor = &at->model->rocket.motor;
-    double impulse = 0;
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_motor *motor = &rocket->motor;
+    double impulse = 0, others = 0;
     for (size_t i = 1; i < motor->thrust.rows; i++) {
         const double *a = &motor->thrust.data[2 * (i - 1)], *b = &motor->thrust.data[2 * i];
         double time = motor_clock(motor, b[0]) - motor_clock(motor, a[0]);
         impulse += time * (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
     }
-    return impulse * motor->thrust_scale;
+    for (int k = 0; k < rocket->further_motor_count; k++) {
+        const ld_further_motor *one = &rocket->further_motor[k];
+        for (size_t i = 1; i < one->thrust.rows; i++) {
+            const double *a = &one->thrust.data[2 * (i - 1)], *b = &one->thrust.data[2 * i];
+            others += one->thrust_scale * one->time_scale * (b[0] - a[0]) *
+                      (fmax(a[1], 0) + fmax(b[1], 0)) / 2;
+        }
+    }
+    return impulse * motor->thrust_scale + others;
+}
+
+static double last_time(const ld_table *thrust)
+{
+    return thrust->rows > 0 ? thrust->data[2 * (thrust->rows - 1)] : 0;
 }
 
 // End of the thrust [s], with its scale; 0 without.
 static double burn_time(const plausible_entry *at)
 {
-    const ld_motor *motor = &at->model->rocket.motor;
-    const ld_table *thrust = &motor->thrust;
-    return thrust->rows > 0 ? motor_clock(motor, thrust->data[2 * (thrust->rows - 1)]) : 0;
+    const ld_rocket *rocket = &at->model->rocket;
+    const ld_table *thrust = &rocket->motor.thrust;
+    double end = thrust->rows > 0 ? motor_clock(&rocket->motor, last_time(thrust)) : 0;
+    for (int i = 0; i < rocket->further_motor_count; i++) {
+        const ld_further_motor *one = &rocket->further_motor[i];
+        end = fmax(end, further_motor_clock(one, last_time(&one->thrust)));
+    }
+    return end;
 }
 
 static double no_motor(const plausible_entry *at)

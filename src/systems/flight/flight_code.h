@@ -50,14 +50,24 @@ LD_INLINE burning burning_at(const flight_lanes *lanes, real t, bool symmetric)
     return out;
 }
 
-// The motor's force, in B, and where it acts.
+// The motor's force, in B, and where it acts; of further ones force and moment about O1.
 typedef struct motor_push {
     real3 force, at;
+    real_wrench others;
 } motor_push;
+
+LD_INLINE void set_lane(real3 *v, int i, v3 now)
+{
+    (void)i; // where there is but one
+    REAL_LANE(v->x, i) = now.x;
+    REAL_LANE(v->y, i) = now.y;
+    REAL_LANE(v->z, i) = now.z;
+}
 
 LD_INLINE motor_push push_of(const flight_lanes *lanes, real t, real thrust)
 {
-    motor_push out = {real3_scale(thrust, THREE_OF(thrust_direction)), THREE_OF(thrust_point)};
+    motor_push out = {.force = real3_scale(thrust, THREE_OF(thrust_direction)),
+                      .at = THREE_OF(thrust_point)};
     if (!lanes->system[0]->motor.across)
         return out;
     for (int i = 0; i < LANES; i++) {
@@ -67,12 +77,14 @@ LD_INLINE motor_push push_of(const flight_lanes *lanes, real t, real thrust)
                                               REAL_LANE(t, i) - phase->t_ignition);
         double y = given->misalignment[0] + across.lean[0],
                z = given->misalignment[1] + across.lean[1];
-        double along = REAL_LANE(thrust, i) / sqrt(1 + y * y + z * z);
+        double along = (REAL_LANE(thrust, i) - across.others) / sqrt(1 + y * y + z * z);
         REAL_LANE(out.force.x, i) = along;
         REAL_LANE(out.force.y, i) = along * y + across.force[0];
         REAL_LANE(out.force.z, i) = along * z + across.force[1];
         REAL_LANE(out.at.y, i) = given->at[1] + across.shift[0];
         REAL_LANE(out.at.z, i) = given->at[2] + across.shift[1];
+        set_lane(&out.others.f, i, across.others_force);
+        set_lane(&out.others.m, i, across.others_moment);
     }
     return out;
 }
@@ -115,9 +127,7 @@ LD_INLINE real3 add_gusts(const flight_lanes *lanes, real t, real3 v)
     for (int i = 0; i < LANES; i++) {
         v3 out = {REAL_LANE(v.x, i), REAL_LANE(v.y, i), REAL_LANE(v.z, i)};
         out = wind_add_gusts(&lanes->system[i]->wind, REAL_LANE(t, i), out);
-        REAL_LANE(v.x, i) = out.x;
-        REAL_LANE(v.y, i) = out.y;
-        REAL_LANE(v.z, i) = out.z;
+        set_lane(&v, i, out);
     }
     return v;
 }
@@ -378,6 +388,10 @@ LD_INLINE void rates(const flight_lanes *lanes, real t, const real *y, real *y_d
     motor_push push = push_of(lanes, t, mass.thrust);
     real3 force = push.force;
     real3 moment = real3_cross(real3_sub(push.at, mass.c), force);
+    if (first->motor.across) {
+        force = real3_add(force, push.others.f);
+        moment = real3_add(moment, real3_sub(push.others.m, real3_cross(mass.c, push.others.f)));
+    }
     if (first->jet_damping) {
         real_wrench jet = jet_damping(lanes, &mass, push.at, w);
         force = real3_add(force, jet.f);
