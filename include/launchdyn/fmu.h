@@ -2,6 +2,8 @@
 #ifndef LAUNCHDYN_FMU_H
 #define LAUNCHDYN_FMU_H
 
+#include <stdbool.h>
+
 #include "launchdyn/model.h"
 #include "launchdyn/status.h"
 
@@ -23,12 +25,13 @@ typedef struct ld_fmu_options {
     int version;            ///< of FMI: 2 (2.0) or 3 (3.0)
     const char *outputs;    ///< those that it has, "tip.y,summary.*"; NULL: all
     const char *parameters; ///< likewise, by name or key, "rocket.*"; NULL: all
-    void *reserved[4];
+    bool arrays;            ///< vectors are one variable each (FMI 3.0, not in an archive)
+    void *reserved[3];
 } ld_fmu_options;
 
 /// Writes an FMU (docs/fmi.md), under a temporary name that then becomes its own.
-/// @return LD_OK; LD_ERR_INPUT (another version, a flight alone, no such part, output or
-/// parameter),
+/// @return LD_OK; LD_ERR_INPUT (another version, arrays where there can be none, a flight alone, no
+/// such part, output or parameter),
 ///         what ld_run_begin() or ld_vehicle_run_begin() returns where no run of it begins,
 ///         LD_ERR_FILE, LD_ERR_MEMORY, LD_ERR_MISSING (built without)
 ld_status ld_fmu_export(const ld_model *model, const ld_fmu_options *options, const char *file,

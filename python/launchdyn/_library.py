@@ -222,7 +222,7 @@ class ld_response_wish(Structure):
 
 class ld_fmu_options(Structure):
     _fields_ = [("part", c_int), ("version", c_int), ("outputs", c_char_p),
-                ("parameters", c_char_p), ("reserved", c_void_p * 4)]
+                ("parameters", c_char_p), ("arrays", c_bool), ("reserved", c_void_p * 3)]
 
 
 class ld_stretch(Structure):

@@ -422,10 +422,11 @@ class Scenario:
         return View("wind", self.handle, ld_wind_section(height, top, length, step, rocket))
 
     def export_fmu(self, file: PathLike, part: str = "all", version: int = 3,
-                   outputs: Optional[str] = None, parameters: Optional[str] = None) -> None:
+                   outputs: Optional[str] = None, parameters: Optional[str] = None,
+                   arrays: bool = False) -> None:
         """Writes a Functional Mock-up Unit (docs/fmi.md) of the launch: `part` "all", "vehicle"
         or "launcher", `version` of FMI 2 or 3; `outputs` and `parameters` that it has, such as
-        "tip.*,summary.*" and "rocket.*", None: all.
+        "tip.*,summary.*" and "rocket.*", None: all; `arrays`: vectors are one variable each (3).
 
         `file`: the FMU.
 
@@ -435,7 +436,8 @@ class Scenario:
         parts = ("all", "vehicle", "launcher")
         if part not in parts:
             raise ValueError(f"expected a part, one of {', '.join(parts)}; found {part!r}")
-        options = ld_fmu_options(parts.index(part), version, _coded(outputs), _coded(parameters))
+        options = ld_fmu_options(parts.index(part), version, _coded(outputs), _coded(parameters),
+                                 arrays)
         check(library.ld_fmu_export(self.handle.pointer, ctypes.byref(options), coded_path(file),
                                     ctypes.byref(error)), error, self.handle.pointer)
 

@@ -48,6 +48,7 @@ int command_fmu(const command *self, int argc, char **argv)
 {
     char **sets = NULL, *out = NULL, *part = NULL, *archive = NULL;
     char *outputs = NULL, *parameters = NULL;
+    int arrays = 0;
     wishes what = {0};
     const command_option options[] = {
         COMMAND_SETS(&sets),
@@ -59,6 +60,7 @@ int command_fmu(const command *self, int argc, char **argv)
          "Outputs that it has, * for any letters: tip.*,summary.* (all)", "NAME,..."},
         {"parameters", '\0', OPTION_TEXT, &parameters,
          "Parameters that it has, likewise by key: rocket.* (all)", "KEY,..."},
+        {"arrays", '\0', OPTION_FLAG, &arrays, "Vectors are one variable each (FMI 3)", NULL},
         {"out", 'o', OPTION_TEXT, &out, "File of the FMU", "FILE"},
         {"ssp", '\0', OPTION_TEXT, &archive,
          "Write vehicle and launcher as an SSP archive in place of an FMU", "FILE"},
@@ -70,6 +72,7 @@ int command_fmu(const command *self, int argc, char **argv)
         what.system = archive != NULL;
         what.options.outputs = outputs;
         what.options.parameters = parameters;
+        what.options.arrays = arrays != 0;
         if (line.count != 2 || strcmp(line.word[0], "export") != 0 || !what.out) {
             command_complain(
                 "fmu requires export FILE and --out FILE or --ssp FILE; see launchdyn fmu --help");

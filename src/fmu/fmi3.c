@@ -191,16 +191,61 @@ static fmi3Status check_counts(const component *self, size_t references, size_t 
                                                 &error);
 }
 
+// Value references of which those of arrays are replaced by their elements'. To be freed.
+typedef struct number_list {
+    size_t count;
+    unsigned reference[];
+} number_list;
+
+// NULL: no memory.
+static number_list *spread(const component *self, const uint32_t *reference, size_t references)
+{
+    number_list *list =
+        malloc(sizeof *list + references * FMU_LONGEST_ARRAY * sizeof *list->reference);
+    if (!list)
+        return NULL;
+    list->count = 0;
+    for (size_t i = 0; i < references; i++)
+        list->count += fmu_elements(self->inside, reference[i], list->reference + list->count);
+    return list;
+}
+
+// The same for this many values; where it is NULL, why is answered. Each array has more than one
+// element.
+static number_list *spread_for(const component *self, const uint32_t *reference, size_t references,
+                               size_t values, fmi3Status *status)
+{
+    ld_error error;
+    number_list *list = spread(self, reference, references);
+    *status = fmi3OK;
+    if (list && list->count == values)
+        return list;
+    *status = answer_status(self,
+                            list ? ld_fail(&error, LD_ERR_INPUT,
+                                           "found %zu values, expected %zu for %zu variables",
+                                           values, list->count, references)
+                                 : ld_fail(&error, LD_ERR_MEMORY, "no memory"),
+                            &error);
+    free(list);
+    return NULL;
+}
+
 fmi3Status fmi3GetFloat64(void *instance, const uint32_t *reference, size_t references,
                           double *value, size_t values)
 {
     component *self = instance;
     NEEDS(references == 0 || (reference && value));
     ld_error error;
-    fmi3Status status = check_counts(self, references, values);
+    fmi3Status status = fmi3OK;
+    number_list *list =
+        references == values ? NULL : spread_for(self, reference, references, values, &status);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer_status(
-            self, fmu_get_number(self->inside, reference[i], FMU_REAL, &value[i], &error), &error);
+        status =
+            answer_status(self,
+                          fmu_get_number(self->inside, list ? list->reference[i] : reference[i],
+                                         FMU_REAL, &value[i], &error),
+                          &error);
+    free(list);
     return status;
 }
 
@@ -210,10 +255,16 @@ fmi3Status fmi3SetFloat64(void *instance, const uint32_t *reference, size_t refe
     component *self = instance;
     NEEDS_ALIVE(references == 0 || (reference && value));
     ld_error error;
-    fmi3Status status = check_counts(self, references, values);
+    fmi3Status status = fmi3OK;
+    number_list *list =
+        references == values ? NULL : spread_for(self, reference, references, values, &status);
     for (size_t i = 0; !status && i < values; i++)
-        status = answer_status(
-            self, fmu_set_number(self->inside, reference[i], FMU_REAL, value[i], &error), &error);
+        status =
+            answer_status(self,
+                          fmu_set_number(self->inside, list ? list->reference[i] : reference[i],
+                                         FMU_REAL, value[i], &error),
+                          &error);
+    free(list);
     return status;
 }
 
@@ -594,6 +645,44 @@ static fmi3Status answer_derivative(const component *self, ld_status status, boo
     return fmi3Warning;
 }
 
+// What a derivative is asked for: `along`: by a seed for each known, else for each unknown.
+typedef struct derivative_call {
+    const char *function;
+    const uint32_t *unknown, *known;
+    size_t unknowns, knowns;
+    const double *seed;
+    double *value;
+    size_t seeds, values;
+    bool along;
+} derivative_call;
+
+static fmi3Status differentiate(const component *self, const derivative_call *call)
+{
+    ld_error error;
+    bool bent = false;
+    number_list *unknown = spread(self, call->unknown, call->unknowns),
+                *known = spread(self, call->known, call->knowns);
+    fmi3Status answer;
+    if (!unknown || !known) {
+        answer = answer_status(self, ld_fail(&error, LD_ERR_MEMORY, "no memory"), &error);
+    } else if (call->seeds != (call->along ? known : unknown)->count ||
+               call->values != (call->along ? unknown : known)->count) {
+        answer =
+            refuse_call(self, call->function,
+                        call->along ? "expected a seed for each known, a value for each unknown"
+                                    : "expected a seed for each unknown, a value for each known");
+    } else {
+        const fmu_jacobian of = {unknown->reference, unknown->count, known->reference,
+                                 known->count};
+        ld_status status = (call->along ? fmu_derivative_along : fmu_derivative_adjoint)(
+            self->inside, &of, call->seed, call->value, &bent, &error);
+        answer = answer_derivative(self, status, bent, &error);
+    }
+    free(unknown);
+    free(known);
+    return answer;
+}
+
 // NOLINTNEXTLINE(readability-function-size): of the standard
 fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown, size_t unknowns,
                                         const uint32_t *known, size_t knowns, const double *seed,
@@ -601,14 +690,8 @@ fmi3Status fmi3GetDirectionalDerivative(void *instance, const uint32_t *unknown,
 {
     component *self = instance;
     NEEDS_ALIVE((unknowns == 0 || (unknown && value)) && (knowns == 0 || (known && seed)));
-    if (seeds != knowns || values != unknowns)
-        return refuse_call(self, __func__,
-                           "expected a seed for each known, a value for each unknown");
-    const fmu_jacobian of = {unknown, unknowns, known, knowns};
-    bool bent;
-    ld_error error;
-    ld_status status = fmu_derivative_along(self->inside, &of, seed, value, &bent, &error);
-    return answer_derivative(self, status, bent, &error);
+    return differentiate(self, &(derivative_call){__func__, unknown, known, unknowns, knowns, seed,
+                                                  value, seeds, values, true});
 }
 
 // NOLINTNEXTLINE(readability-function-size): of the standard
@@ -618,14 +701,8 @@ fmi3Status fmi3GetAdjointDerivative(void *instance, const uint32_t *unknown, siz
 {
     component *self = instance;
     NEEDS_ALIVE((unknowns == 0 || (unknown && seed)) && (knowns == 0 || (known && value)));
-    if (seeds != unknowns || values != knowns)
-        return refuse_call(self, __func__,
-                           "expected a seed for each unknown, a value for each known");
-    const fmu_jacobian of = {unknown, unknowns, known, knowns};
-    bool bent;
-    ld_error error;
-    ld_status status = fmu_derivative_adjoint(self->inside, &of, seed, value, &bent, &error);
-    return answer_derivative(self, status, bent, &error);
+    return differentiate(self, &(derivative_call){__func__, unknown, known, unknowns, knowns, seed,
+                                                  value, seeds, values, false});
 }
 
 // ---- model exchange ----

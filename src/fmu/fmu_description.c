@@ -139,21 +139,52 @@ static const char *variability_of(const fmu_variable *v)
                                                               : "continuous";
 }
 
-static void write_head(FILE *stream, const fmu_variable *v)
+size_t fmu_listed_length(const fmu_description *self, size_t place)
+{
+    return self->arrays ? fmu_array_length(self->variables, place) : 1;
+}
+
+void fmu_write_array_name(FILE *stream, const fmu_variable *first)
+{
+    char name[FMU_ARRAY_NAME];
+    fmu_array_name(first, name);
+    fmu_write_text(stream, name);
+}
+
+// That of all elements, or theirs one by one.
+void fmu_write_array_meaning(FILE *stream, const fmu_variable *first, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        if (i > 0 && strcmp(first[i].description, first[i - 1].description) == 0)
+            continue;
+        fputs(i > 0 ? "; " : "", stream);
+        fmu_write_text(stream, first[i].description);
+    }
+}
+
+// Of an array of that length, 1: of a variable that is none.
+static void write_head(FILE *stream, const fmu_variable *v, size_t length)
 {
     fprintf(stream, " name=\"");
-    fmu_write_text(stream, v->name);
-    fprintf(stream, "\" valueReference=\"%u\" description=\"", v->reference);
-    fmu_write_text(stream, v->description);
+    if (length > 1)
+        fmu_write_array_name(stream, v);
+    else
+        fmu_write_text(stream, v->name);
+    fprintf(stream, "\" valueReference=\"%u\" description=\"",
+            length > 1 ? v->array : v->reference);
+    fmu_write_array_meaning(stream, v, length);
     fprintf(stream, "\" causality=\"%s\" variability=\"%s\"", causality_of(v), variability_of(v));
 }
 
-static void write_start(FILE *stream, const fmu_variable *v)
+static void write_start(FILE *stream, const fmu_variable *v, size_t length)
 {
-    if (fmu_type_of(v) == FMU_BOOLEAN)
+    if (fmu_type_of(v) == FMU_BOOLEAN) {
         fprintf(stream, " start=\"%s\"", v->start != 0 ? "true" : "false");
-    else if (!isnan(v->start))
-        fprintf(stream, " start=\"%.17g\"", v->start);
+    } else if (!isnan(v->start)) {
+        for (size_t i = 0; i < length; i++)
+            fprintf(stream, "%s%.17g", i > 0 ? " " : " start=\"", v[i].start);
+        fputs("\"", stream);
+    }
 }
 
 static void write_sizes(FILE *stream, const fmu_variable *v)
@@ -165,26 +196,28 @@ static void write_sizes(FILE *stream, const fmu_variable *v)
 }
 
 // How a variable is named in other places: by its place, from 1, in FMI 2.0, else by its reference.
-static size_t number_of(const fmu_variables *all, size_t place, int version)
+static size_t number_of(const fmu_description *self, size_t place)
 {
-    return version == 2 ? place + 1 : all->item[place].reference;
+    const fmu_variable *v = &self->variables->item[place];
+    return self->version == 2                   ? place + 1
+           : fmu_listed_length(self, place) > 1 ? v->array
+                                                : v->reference;
 }
 
 // Of which state it is the rate.
-static void write_derivative(FILE *stream, const fmu_variables *all, const fmu_variable *v,
-                             int version)
+static void write_derivative(FILE *stream, const fmu_description *self, const fmu_variable *v)
 {
     if (v->group == FMU_RATE)
         fprintf(stream, " derivative=\"%zu\"",
-                number_of(all, fmu_group_begin(all, FMU_STATE) + (size_t)v->index, version));
+                number_of(self, fmu_group_begin(self->variables, FMU_STATE) + (size_t)v->index));
 }
 
-static void write_variable_2(FILE *stream, const fmu_variables *all, size_t place)
+static void write_variable_2(FILE *stream, const fmu_description *self, size_t place)
 {
     static const char *const type[] = {"Real", "Boolean", "Integer"};
-    const fmu_variable *v = &all->item[place];
+    const fmu_variable *v = &self->variables->item[place];
     fputs("    <ScalarVariable", stream);
-    write_head(stream, v);
+    write_head(stream, v, 1);
     if (fmu_type_of(v) == FMU_STRING) {
         fputs("><String start=\"", stream);
         fmu_write_text(stream, v->text);
@@ -192,19 +225,20 @@ static void write_variable_2(FILE *stream, const fmu_variables *all, size_t plac
     } else {
         fprintf(stream, "><%s", type[fmu_type_of(v)]);
         write_sizes(stream, v);
-        write_derivative(stream, all, v, 2);
-        write_start(stream, v);
+        write_derivative(stream, self, v);
+        write_start(stream, v, 1);
         fputs("/>", stream);
     }
     fputs("</ScalarVariable>\n", stream);
 }
 
-static void write_variable_3(FILE *stream, const fmu_variables *all, size_t place)
+static void write_variable_3(FILE *stream, const fmu_description *self, size_t place)
 {
     static const char *const type[] = {"Float64", "Boolean", "Int32", "String"};
-    const fmu_variable *v = &all->item[place];
+    const fmu_variable *v = &self->variables->item[place];
+    size_t length = fmu_listed_length(self, place);
     fprintf(stream, "    <%s", type[fmu_type_of(v)]);
-    write_head(stream, v);
+    write_head(stream, v, length);
     if (fmu_type_of(v) == FMU_STRING) {
         fputs("><Start value=\"", stream);
         fmu_write_text(stream, v->text);
@@ -212,9 +246,12 @@ static void write_variable_3(FILE *stream, const fmu_variables *all, size_t plac
         return;
     }
     write_sizes(stream, v);
-    write_derivative(stream, all, v, 3);
-    write_start(stream, v);
-    fputs("/>\n", stream);
+    write_derivative(stream, self, v);
+    write_start(stream, v, length);
+    if (length > 1)
+        fprintf(stream, "><Dimension start=\"%zu\"/></Float64>\n", length);
+    else
+        fputs("/>\n", stream);
 }
 
 // ---- structure ----
@@ -265,14 +302,14 @@ static bool is_known(const known *from, const fmu_variable *v)
                                    : fmu_is_parameter(v) && from->parameters;
 }
 
-static void write_dependencies(FILE *stream, const fmu_variables *all, const known *from,
-                               int version)
+static void write_dependencies(FILE *stream, const fmu_description *self, const known *from)
 {
+    const fmu_variables *all = self->variables;
     const char *between = "";
     fputs(" dependencies=\"", stream);
-    for (size_t i = 0; i < all->count; i++)
+    for (size_t i = 0; i < all->count; i += fmu_listed_length(self, i))
         if (is_known(from, &all->item[i])) {
-            fprintf(stream, "%s%zu", between, number_of(all, i, version));
+            fprintf(stream, "%s%zu", between, number_of(self, i));
             between = " ";
         }
     fputs("\"", stream);
@@ -287,7 +324,7 @@ static void write_unknowns(FILE *stream, const fmu_description *self, const char
     const bool listed = !initial || (all->runner->input_count > 0 && !all->runner->follows);
     if (self->version == 2)
         fprintf(stream, "    <%s>\n", element);
-    for (size_t i = 0; i < all->count; i++) {
+    for (size_t i = 0; i < all->count; i += fmu_listed_length(self, i)) {
         if (!asked(&all->item[i]))
             continue;
         known from = initial ? (known){.parameters = true} : known_of(all, &all->item[i]);
@@ -295,9 +332,9 @@ static void write_unknowns(FILE *stream, const fmu_description *self, const char
             fputs("      <Unknown index", stream);
         else
             fprintf(stream, "    <%s valueReference", element);
-        fprintf(stream, "=\"%zu\"", number_of(all, i, self->version));
+        fprintf(stream, "=\"%zu\"", number_of(self, i));
         if (listed)
-            write_dependencies(stream, all, &from, self->version);
+            write_dependencies(stream, self, &from);
         fputs("/>\n", stream);
     }
     if (self->version == 2)
@@ -407,8 +444,8 @@ void fmu_description_write(const fmu_description *self, FILE *stream)
     fmu_write_experiment(stream, self->start, self->stop, self->tolerance);
     fputs("/>\n", stream);
     fputs("  <ModelVariables>\n", stream);
-    for (size_t i = 0; i < self->variables->count; i++)
-        (self->version == 2 ? write_variable_2 : write_variable_3)(stream, self->variables, i);
+    for (size_t i = 0; i < self->variables->count; i += fmu_listed_length(self, i))
+        (self->version == 2 ? write_variable_2 : write_variable_3)(stream, self, i);
     fputs("  </ModelVariables>\n", stream);
     write_structure(stream, self);
     fputs("</fmiModelDescription>\n", stream);

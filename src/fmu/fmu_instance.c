@@ -419,13 +419,33 @@ ld_status fmu_set_experiment(fmu_instance *self, double start, double tolerance,
 
 // ---- values ----
 
+size_t fmu_elements(const fmu_instance *self, unsigned reference,
+                    unsigned element[FMU_LONGEST_ARRAY])
+{
+    const fmu_variables *all = &self->variables;
+    size_t first = fmu_variables_find_array(all, reference);
+    if (first == all->count) {
+        element[0] = reference;
+        return 1;
+    }
+    size_t length = fmu_array_length(all, first);
+    for (size_t i = 0; i < length; i++)
+        element[i] = all->item[first + i].reference;
+    return length;
+}
+
 // NULL: there is none, or one of another type.
 static const fmu_variable *find(const fmu_instance *self, unsigned reference, fmu_type type,
                                 ld_error *error)
 {
     size_t place = fmu_variables_find(&self->variables, reference);
     if (place == self->variables.count) {
-        ld_fail(error, LD_ERR_INPUT, "variable %u does not exist", reference);
+        size_t array = fmu_variables_find_array(&self->variables, reference);
+        if (array < place)
+            ld_fail(error, LD_ERR_INPUT, "variable %u is an array: found 1 value, expected %zu",
+                    reference, fmu_array_length(&self->variables, array));
+        else
+            ld_fail(error, LD_ERR_INPUT, "variable %u does not exist", reference);
         return NULL;
     }
     const fmu_variable *variable = &self->variables.item[place];

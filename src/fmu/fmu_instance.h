@@ -21,6 +21,11 @@ void fmu_instance_free(fmu_instance *self);
 // As it was when it was new.
 ld_status fmu_instance_reset(fmu_instance *self, ld_error *error);
 
+// The value references of the numbers that a variable consists of: an array's elements, or it
+// alone. Returns how many.
+size_t fmu_elements(const fmu_instance *self, unsigned reference,
+                    unsigned element[FMU_LONGEST_ARRAY]);
+
 // A number (of what is true or false 1 or 0) of a type, or a text, by value reference. A text lasts
 // until its variable is set. Returns LD_OK; LD_ERR_INPUT: no such variable, or one of another type;
 // what ended the run, or why there is none.

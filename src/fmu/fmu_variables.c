@@ -34,6 +34,7 @@ void fmu_variables_free(fmu_variables *self)
         fmu_variable_free(&self->item[i]);
     free(self->item);
     free(self->order);
+    free(self->array_order);
     *self = (fmu_variables){0};
 }
 
@@ -59,21 +60,58 @@ static int compare_references(const void *a, const void *b)
     return x->place < y->place ? -1 : 1;
 }
 
+// The next that is free, where the one before has it.
+static void pass_former(reference_place *by, size_t i)
+{
+    if (i > 0 && by[i].reference <= by[i - 1].reference)
+        by[i].reference = by[i - 1].reference + 1;
+}
+
+static void refer_variables(fmu_variables *self, reference_place *by)
+{
+    for (size_t i = 0; i < self->count; i++)
+        by[i] = (reference_place){reference_of(self->item[i].name), i};
+    qsort(by, self->count, sizeof *by, compare_references);
+    for (size_t i = 0; i < self->count; i++) {
+        pass_former(by, i);
+        self->order[i] = by[i].place;
+        self->item[by[i].place].reference = by[i].reference;
+    }
+}
+
+// After the variables, which keep theirs.
+static void refer_arrays(fmu_variables *self, reference_place *by)
+{
+    char name[FMU_ARRAY_NAME];
+    size_t count = 0;
+    for (size_t i = 0, length; i < self->count; i += length) {
+        length = fmu_array_length(self, i);
+        fmu_array_name(&self->item[i], name);
+        if (length > 1)
+            by[count++] = (reference_place){reference_of(name), i};
+    }
+    qsort(by, count, sizeof *by, compare_references);
+    for (size_t i = 0; i < count; i++) {
+        pass_former(by, i);
+        while (fmu_variables_find(self, by[i].reference) < self->count)
+            by[i].reference++;
+        self->array_order[i] = by[i].place;
+        self->item[by[i].place].array = by[i].reference;
+    }
+    self->array_count = count;
+}
+
 bool fmu_variables_refer(fmu_variables *self)
 {
     reference_place *by = malloc((1 + self->count) * sizeof *by);
     free(self->order);
+    free(self->array_order);
     self->order = malloc((1 + self->count) * sizeof *self->order);
-    bool fine = by && self->order;
-    for (size_t i = 0; i < self->count && fine; i++)
-        by[i] = (reference_place){reference_of(self->item[i].name), i};
-    if (fine)
-        qsort(by, self->count, sizeof *by, compare_references);
-    for (size_t i = 0; i < self->count && fine; i++) {
-        if (i > 0 && by[i].reference <= by[i - 1].reference)
-            by[i].reference = by[i - 1].reference + 1;
-        self->order[i] = by[i].place;
-        self->item[by[i].place].reference = by[i].reference;
+    self->array_order = malloc((1 + self->count) * sizeof *self->array_order);
+    bool fine = by && self->order && self->array_order;
+    if (fine) {
+        refer_variables(self, by);
+        refer_arrays(self, by);
     }
     free(by);
     return fine;
@@ -91,6 +129,66 @@ size_t fmu_variables_find(const fmu_variables *self, unsigned reference)
     }
     bool found = low < self->count && self->item[self->order[low]].reference == reference;
     return found ? self->order[low] : self->count;
+}
+
+size_t fmu_variables_find_array(const fmu_variables *self, unsigned reference)
+{
+    size_t low = 0, high = self->array_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (self->item[self->array_order[middle]].array < reference)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    bool found = low < self->array_count && self->item[self->array_order[low]].array == reference;
+    return found ? self->array_order[low] : self->count;
+}
+
+// ---- arrays ----
+
+// Where the letter stands that says which element it is: "tip.y", "der(state.tube.rate.y)". NULL:
+// nowhere.
+static const char *element_letter(const char *name)
+{
+    size_t length = strlen(name);
+    if (length > 0 && name[length - 1] == ')')
+        length--;
+    return length > 2 && name[length - 2] == '.' ? name + length - 1 : NULL;
+}
+
+// Whether the variable is element `i`, by those letters, of the array that `first` begins.
+static bool continues_array(const fmu_variable *first, const fmu_variable *v, int i,
+                            const char *letters)
+{
+    const char *letter = element_letter(first->name);
+    size_t before = (size_t)(letter - first->name);
+    return v->group == first->group && v->index == first->index + i && fmu_type_of(v) == FMU_REAL &&
+           strcmp(v->unit, first->unit) == 0 && v->nominal == first->nominal &&
+           isnan(v->start) == isnan(first->start) && strlen(v->name) == strlen(first->name) &&
+           strncmp(v->name, first->name, before) == 0 && v->name[before] == letters[i] &&
+           strcmp(v->name + before + 1, letter + 1) == 0;
+}
+
+size_t fmu_array_length(const fmu_variables *self, size_t place)
+{
+    const fmu_variable *first = &self->item[place];
+    const char *letter = element_letter(first->name);
+    if (!letter || (*letter != 'x' && *letter != '0'))
+        return 1;
+    const char *letters = *letter == 'x' ? "xyz" : "0123";
+    size_t length = strlen(letters);
+    for (size_t i = 0; i < length; i++)
+        if (place + i >= self->count || !continues_array(first, first + i, (int)i, letters))
+            return 1;
+    return length;
+}
+
+void fmu_array_name(const fmu_variable *first, char name[FMU_ARRAY_NAME])
+{
+    const char *letter = element_letter(first->name);
+    int before = letter ? (int)(letter - first->name) - 1 : 0;
+    snprintf(name, FMU_ARRAY_NAME, "%.*s%s", before, first->name, letter ? letter + 1 : "");
 }
 
 // ---- kinds ----

@@ -30,6 +30,7 @@ typedef struct fmu_variable {
     fmu_group group;
     bool whole;         // a number that counts
     unsigned reference; // value reference: follows from the name alone, below 2^31
+    unsigned array;     // that of the array which begins with it, likewise
     int index;          // in its group, from 0
     char *name;         // "input.base.position.x", "scenario.rocket.mass", "tip.y"
     char *unit;         // SI; "" without
@@ -43,8 +44,10 @@ typedef struct fmu_variables {
     size_t count, capacity;
     fmu_variable *item;
     size_t *order; // places in `item`, by value references that rise
-    double start;  // [s] of the run's clock
-    double stop;   // when the launch is over, rounded up; NaN: not known, as inside of an FMU
+    size_t array_count;
+    size_t *array_order; // likewise of those with which arrays begin
+    double start;        // [s] of the run's clock
+    double stop;         // when the launch is over, rounded up; NaN: not known, as inside of an FMU
     const fmu_runner *runner;
     bool exchange; // it is one for model exchange, too
 } fmu_variables;
@@ -62,6 +65,15 @@ void fmu_variable_free(fmu_variable *self);
 bool fmu_variables_refer(fmu_variables *self);
 // The place of that value reference; `count`: there is none.
 size_t fmu_variables_find(const fmu_variables *self, unsigned reference);
+
+// Numbers that stand behind each other and whose names end in x, y, z or in 0 to 3 are an array,
+// too, in FMI 3.0: its name is what is before the end, its value reference that of the name.
+enum { FMU_LONGEST_ARRAY = 4, FMU_ARRAY_NAME = 256 };
+// How many elements the array has that begins at that place; 1: none does.
+size_t fmu_array_length(const fmu_variables *self, size_t place);
+void fmu_array_name(const fmu_variable *first, char name[FMU_ARRAY_NAME]);
+// The place of its first element; `count`: there is no such array.
+size_t fmu_variables_find_array(const fmu_variables *self, unsigned reference);
 
 fmu_type fmu_type_of(const fmu_variable *variable);
 bool fmu_is_input(const fmu_variable *variable);

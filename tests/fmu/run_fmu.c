@@ -1,8 +1,8 @@
 // usage: run_fmu FOLDER BINARY FMI
 // An importer that runs on Windows, too: an unpacked FMU of version FMI (2 or 3) in FOLDER,
 // co-simulation by steps of a hundredth of its length to its end. Prints every output as 16
-// hexadecimal digits, a line for each instant, and the names and numbers of the last one: on two
-// machines to be compared as texts (scripts/cross).
+// hexadecimal digits, a line for each instant, and the names and numbers of the last one, arrays by
+// their elements: on two machines to be compared as texts (scripts/cross).
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,8 +26,9 @@
 enum { MOST = 4000, STEPS = 100, LINE = 1 << 14 };
 
 static void *library, *instance;
-static int version, count;
+static int version, count, numbers; // variables, and of how many numbers they are
 static unsigned reference[MOST];
+static int length[MOST];
 static char name[MOST][160];
 
 #define CALL(name) ((__typeof__(&name))FIND(library, #name))
@@ -83,7 +84,13 @@ static void take_line(const char *line, char token[64], double span[2])
         return;
     attribute(line, "valueReference", value, sizeof value);
     attribute(line, "name", name[count], sizeof name[count]);
-    reference[count++] = (unsigned)strtoul(value, NULL, 10);
+    reference[count] = (unsigned)strtoul(value, NULL, 10);
+    const char *dimension = strstr(line, "<Dimension");
+    length[count] =
+        dimension && attribute(dimension, "start", value, sizeof value) ? atoi(value) : 1;
+    numbers += length[count++];
+    if (numbers > MOST)
+        stop("too many outputs");
 }
 
 static void read_description(const char *folder, char token[64], double span[2])
@@ -137,15 +144,15 @@ static int step(double t, double size)
 
 static void get(double value[MOST])
 {
-    check(version == 2
-              ? (int)CALL(fmi2GetReal)(instance, reference, (size_t)count, value)
-              : (int)CALL(fmi3GetFloat64)(instance, reference, (size_t)count, value, (size_t)count),
+    check(version == 2 ? (int)CALL(fmi2GetReal)(instance, reference, (size_t)count, value)
+                       : (int)CALL(fmi3GetFloat64)(instance, reference, (size_t)count, value,
+                                                   (size_t)numbers),
           "get");
 }
 
 static void print_bits(const double value[MOST])
 {
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < numbers; i++) {
         uint64_t bits;
         memcpy(&bits, &value[i], sizeof bits);
         printf("%s%016" PRIx64, i ? " " : "", bits);
@@ -175,8 +182,9 @@ int main(int arguments, char **argument)
         get(value);
         print_bits(value);
     }
-    for (int i = 0; i < count; i++)
-        printf("%s %.6g\n", name[i], value[i]);
+    for (int i = 0, at = 0; i < count; i++)
+        for (int k = 0; k < length[i]; k++)
+            printf("%s %.6g\n", name[i], value[at++]);
     if (version == 2)
         CALL(fmi2FreeInstance)(instance);
     else

@@ -286,6 +286,51 @@ static void goes_back_from_an_event(void **state)
     fmu_close(&fmu);
 }
 
+// References of the variables whose names begin so, in the description's order.
+static size_t listed(const unpacked_fmu *fmu, const char *prefix, uint32_t reference[IMPORTER_MOST])
+{
+    char wanted[64], value[32];
+    size_t count = 0;
+    snprintf(wanted, sizeof wanted, " name=\"%s", prefix);
+    for (const char *at = fmu->description; (at = strstr(at, wanted)); at++) {
+        attribute_after(at, "valueReference", value, sizeof value);
+        reference[count++] = (uint32_t)strtoul(value, NULL, 10);
+    }
+    return count;
+}
+
+// States and rates, vectors as arrays, are those that the integrator has, in their order.
+static void states_are_arrays_by_a_choice(void **state)
+{
+    (void)state;
+    unpacked_fmu fmu = fmu_open("examples/fixed.yaml --arrays", 3);
+    importer by;
+    uint32_t states[IMPORTER_MOST], rates[IMPORTER_MOST];
+    double rate[IMPORTER_MOST], got[IMPORTER_MOST], along[3];
+    size_t count = listed(&fmu, "state.", states);
+    assert_int_equal(listed(&fmu, "der(state.", rates), count);
+    importer_open(&by, &fmu, 3);
+    importer_start(&by, 0);
+    importer_integrate(&by, 1e-6);
+    importer_go(&by, 0.02);
+    assert_true(count + 12 <
+                by.states); // six vectors of three are 12 variables less, quaternions 3
+    OK_3(&by, fmi3GetFloat64, states, count, got, by.states);
+    assert_memory_equal(got, by.x, by.states * sizeof *got);
+    importer_rates(&by, rate);
+    OK_3(&by, fmi3GetFloat64, rates, count, got, by.states);
+    assert_memory_equal(got, rate, by.states * sizeof *got);
+    // a position's rate is the velocity's, turned into I: of the seeds' size
+    const uint32_t unknown = reference_of(&fmu, "der(state.tube.position)"),
+                   known = reference_of(&fmu, "state.tube.velocity");
+    const double seed[3] = {0.3, -0.4, 1.2};
+    OK_3(&by, fmi3GetDirectionalDerivative, &unknown, 1, &known, 1, seed, 3, along, 3);
+    CHECK_NEAR("rate of a place along a velocity",
+               sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]), 1.3, 1e-9);
+    importer_close(&by);
+    fmu_close(&fmu);
+}
+
 // Adaptors held on the axis: a step that ends off it asks for event mode, which puts it back.
 static void asks_for_a_place_on_the_axis(void **state)
 {
@@ -777,6 +822,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_end_is_recorded, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(tells_the_same_at_a_point, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(goes_back_from_an_event, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(states_are_arrays_by_a_choice, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(asks_for_a_place_on_the_axis, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(moves_with_its_base, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(lights_by_the_input, shell_make, shell_remove),

@@ -332,15 +332,21 @@ static void tell_3(const unpacked_fmu *fmu, void *instance, const ld_base_frame 
     }
 }
 
-static void moves_with_its_base(void **state)
+// A scenario in the shell's folder.
+static const char *make_external(void)
 {
-    (void)state;
-    const char *scenario = "external.yaml";
-    char path[128];
-    snprintf(path, sizeof path, "%s/%s", shell.folder, scenario);
     assert_int_equal(run("sed -e 's/kind: fixed/kind: external/; /elevation:/d' -e "
                          "'s/^run:/run:\\n  lead_in: 0.1 s/' examples/fixed.yaml >external.yaml"),
                      0);
+    return "external.yaml";
+}
+
+static void moves_with_its_base(void **state)
+{
+    (void)state;
+    const char *scenario = make_external();
+    char path[128];
+    snprintf(path, sizeof path, "%s/%s", shell.folder, scenario);
     unpacked_fmu fmu = fmu_open(scenario, 3);
     ld_base_frame base = swaying(-0.1);
     library by = begin_with(path, NULL, &base);
@@ -831,6 +837,186 @@ static void has_what_is_chosen(void **state)
                                    "\"rocket.mass\"?\n");
 }
 
+// ---- vectors as arrays ----
+
+static fmi3Status get_array(const unpacked_fmu *fmu, void *instance, const char *name,
+                            double *value, size_t count)
+{
+    unsigned reference = reference_of(fmu, name);
+    assert_int_equal(reference, reference_by(name));
+    return FMU_FUNCTION(fmu, fmi3GetFloat64)(instance, &reference, 1, value, count);
+}
+
+static fmi3Status set_array(const unpacked_fmu *fmu, void *instance, const char *name,
+                            const double *value, size_t count)
+{
+    unsigned reference = reference_of(fmu, name);
+    return FMU_FUNCTION(fmu, fmi3SetFloat64)(instance, &reference, 1, value, count);
+}
+
+// On a base that moves in all directions.
+static ld_base_frame tumbling(double t)
+{
+    ld_base_frame frame = swaying(t);
+    frame.velocity[2] = -0.5;
+    frame.position[2] = -0.5 * t;
+    frame.rate[0] = 0.02;
+    frame.rate[1] = -0.01;
+    return frame;
+}
+
+static void tell_by_arrays(const unpacked_fmu *fmu, void *instance, const ld_base_frame *base)
+{
+    const double *numbers[] = {base->position, base->quaternion, base->velocity, base->rate};
+    static const char *const names[] = {"input.base.position", "input.base.quaternion",
+                                        "input.base.velocity", "input.base.rate"};
+    for (int i = 0; i < 4; i++)
+        assert_int_equal(set_array(fmu, instance, names[i], numbers[i], i == 1 ? 4 : 3), fmi3OK);
+}
+
+// Together the elements that the other description lists one by one, in their order.
+static void check_listed(const unpacked_fmu *arrays, const unpacked_fmu *scalars)
+{
+    int elements = 0, there = 0;
+    for (const char *at = arrays->description; (at = strstr(at, "<Dimension start=\"")); at++) {
+        elements += atoi(at + strlen("<Dimension start=\"")) - 1;
+        there++;
+    }
+    assert_true(there > 30);
+    assert_int_equal(count_of(arrays->description, " causality=\"") + elements,
+                     count_of(scalars->description, " causality=\""));
+    assert_int_equal(count_of(arrays->description, "<Output "),
+                     count_of(arrays->description, " causality=\"output\""));
+    assert_int_equal(count_of(arrays->description, "name=\"wrench.force.x\""), 0);
+    char text[128];
+    snprintf(text, sizeof text, " derivative=\"%u\"><Dimension start=\"4\"/></Float64>",
+             reference_by("state.tube.quaternion"));
+    assert_non_null(strstr(arrays->description, text));
+    assert_non_null(
+        strstr(arrays->description, " start=\"1 0 0 0\"><Dimension start=\"4\"/></Float64>"));
+    assert_null(strstr(scalars->description, "<Dimension"));
+}
+
+// The same launch on the same base, said to one by vectors, to the other by numbers.
+static void vectors_are_arrays_by_a_choice(void **state)
+{
+    (void)state;
+    const char *scenario = make_external();
+    unpacked_fmu arrays = fmu_open("external.yaml --arrays", 3), scalars = fmu_open(scenario, 3);
+    void *by_vector = begin_3(&arrays, false), *by_number = begin_3(&scalars, false);
+    check_listed(&arrays, &scalars);
+    double center[3] = {1.125, 2e-3, -1e-3}, got[9], one[3];
+    static const char *const centers[] = {"scenario.rocket.center.x", "scenario.rocket.center.y",
+                                          "scenario.rocket.center.z"};
+    assert_int_equal(set_array(&arrays, by_vector, "scenario.rocket.center", center, 3), fmi3OK);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(set_3(&scalars, by_number, centers[i], center[i]), fmi3OK);
+    for (int k = 0; k < 20; k++) {
+        double t = -0.1 + 0.01 * k;
+        ld_base_frame frame = tumbling(t);
+        tell_3(&scalars, by_number, &frame);
+        tell_by_arrays(&arrays, by_vector, &frame);
+        if (k == 0) {
+            start_3(&arrays, by_vector, t);
+            start_3(&scalars, by_number, t);
+        }
+        step_3(&arrays, by_vector, t, -0.1 + 0.01 * (k + 1) - t);
+        step_3(&scalars, by_number, t, -0.1 + 0.01 * (k + 1) - t);
+    }
+    // arrays and a number between them at once
+    const unsigned mixed[] = {reference_of(&arrays, "wrench.moment"),
+                              reference_of(&arrays, "rocket.s"), reference_of(&arrays, "center")};
+    static const char *const names[] = {"wrench.moment.x", "wrench.moment.y", "wrench.moment.z",
+                                        "rocket.s",        "center.x",        "center.y",
+                                        "center.z"};
+    assert_int_equal(FMU_FUNCTION(&arrays, fmi3GetFloat64)(by_vector, mixed, 3, got, 7), fmi3OK);
+    for (int i = 0; i < 7; i++)
+        assert_true(got[i] == value_3(&scalars, by_number, names[i]) && got[i] != 0);
+    // what does not fit
+    assert_int_equal(FMU_FUNCTION(&arrays, fmi3GetFloat64)(by_vector, mixed, 3, got, 9), fmi3Error);
+    assert_string_equal(logged, "found 9 values, expected 7 for 3 variables");
+    assert_int_equal(get_array(&arrays, by_vector, "center", one, 1), fmi3Error);
+    assert_non_null(strstr(logged, "is an array: found 1 value, expected 3"));
+    assert_int_equal(set_array(&arrays, by_vector, "input.base.rate", one, 2), fmi3Error);
+    FMU_FUNCTION(&arrays, fmi3FreeInstance)(by_vector);
+    FMU_FUNCTION(&scalars, fmi3FreeInstance)(by_number);
+    fmu_close(&arrays);
+    fmu_close(&scalars);
+}
+
+// Seeds and values by elements.
+static void arrays_have_derivatives(void **state)
+{
+    (void)state;
+    make_external();
+    unpacked_fmu fmu = fmu_open("external.yaml --arrays", 3);
+    void *instance = begin_3(&fmu, false);
+    start_3(&fmu, instance, -0.1);
+    const unsigned unknown[] = {reference_of(&fmu, "rocket.s"), reference_of(&fmu, "wrench.force")},
+                   known[] = {reference_of(&fmu, "input.base.velocity"),
+                              reference_of(&fmu, "input.base.rate")};
+    double seed[6], column[4], whole[4], sum[4] = {0}, back[6] = {0}, seed_back[4] = {1, 2, 3, 4};
+    for (int i = 0; i < 6; i++)
+        seed[i] = 1 + 0.5 * i;
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetDirectionalDerivative)(instance, unknown, 2, known,
+                                                                      2, seed, 6, whole, 4),
+                     fmi3OK);
+    for (int i = 0; i < 6; i++) {
+        double unit[6] = {0};
+        unit[i] = 1;
+        assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetDirectionalDerivative)(
+                             instance, unknown, 2, known, 2, unit, 6, column, 4),
+                         fmi3OK);
+        for (int k = 0; k < 4; k++) {
+            sum[k] += seed[i] * column[k];
+            back[i] += seed_back[k] * column[k];
+        }
+    }
+    double worst = 0, largest = 0, adjoint[6];
+    for (int k = 0; k < 4; k++) {
+        worst = fmax(worst, fabs(whole[k] - sum[k]));
+        largest = fmax(largest, fabs(whole[k]));
+    }
+    CHECK_BELOW("derivative along a seed of arrays, of the largest", worst / largest, 1e-12);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetAdjointDerivative)(instance, unknown, 2, known, 2,
+                                                                  seed_back, 4, adjoint, 6),
+                     fmi3OK);
+    worst = largest = 0;
+    for (int i = 0; i < 6; i++) {
+        worst = fmax(worst, fabs(adjoint[i] - back[i]));
+        largest = fmax(largest, fabs(adjoint[i]));
+    }
+    CHECK_BELOW("adjoint, against columns", worst / largest, 1e-12);
+    assert_int_equal(FMU_FUNCTION(&fmu, fmi3GetDirectionalDerivative)(instance, unknown, 2, known,
+                                                                      2, seed, 2, whole, 4),
+                     fmi3Error);
+    assert_non_null(strstr(logged, "expected a seed for each known, a value for each unknown"));
+    FMU_FUNCTION(&fmu, fmi3FreeInstance)(instance);
+    fmu_close(&fmu);
+}
+
+static void arrays_are_refused_where_there_are_none(void **state)
+{
+    (void)state;
+    assert_int_equal(run("launchdyn fmu export examples/fixed.yaml --arrays --fmi 2 --out x.fmu"),
+                     2);
+    assert_string_equal(shell.err, "launchdyn: found arrays with FMI 2, expected FMI 3\n");
+    assert_int_equal(run("launchdyn fmu export examples/reference.yaml --arrays --ssp x.ssp"), 2);
+    assert_string_equal(shell.err,
+                        "launchdyn: found arrays, which connectors of SSP 1.0 cannot be\n");
+    // of what is chosen, a vector that is there in part stands by its numbers
+    unpacked_fmu fmu =
+        fmu_open("examples/fixed.yaml --arrays --outputs 'base.y,wrench.force.*,wrench.moment.x' "
+                 "--parameters 'rocket.center.x'",
+                 3);
+    assert_int_equal(count_of(fmu.description, "causality=\"output\""), 3);
+    assert_non_null(strstr(fmu.description, " name=\"base.y\""));
+    assert_non_null(strstr(fmu.description, " name=\"wrench.force\""));
+    assert_non_null(strstr(fmu.description, " name=\"wrench.moment.x\""));
+    assert_non_null(strstr(fmu.description, " name=\"scenario.rocket.center.x\""));
+    fmu_close(&fmu);
+}
+
 // ---- what importers demand (docs/fmi.md) ----
 
 static unsigned char *read_file_of(const unpacked_fmu *fmu, const char *name, long *size)
@@ -1002,6 +1188,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(is_named_and_timed, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(has_what_importers_demand, shell_make, shell_remove),
         cmocka_unit_test_setup_teardown(has_what_is_chosen, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(vectors_are_arrays_by_a_choice, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(arrays_have_derivatives, shell_make, shell_remove),
+        cmocka_unit_test_setup_teardown(arrays_are_refused_where_there_are_none, shell_make,
+                                        shell_remove),
         cmocka_unit_test_setup_teardown(go_side_by_side, shell_make, shell_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

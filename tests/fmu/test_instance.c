@@ -172,28 +172,34 @@ static void takes_every_parameter(void **state)
     }
 }
 
-// As many names as share some numbers of 31 bits: each has a reference of its own, by which it is
-// found, and all but those few that which it has alone.
+// As many names as share some numbers of 31 bits: each, and each vector, has a reference of its
+// own, by which it is found, and all but those few that which it has alone.
 static void shares_no_reference(void **state)
 {
     (void)state;
-    enum { NAMES = 200000 };
+    enum { NAMES = 200001 };
     fmu_variables all = {.count = NAMES, .item = calloc(NAMES, sizeof *all.item)};
-    char name[32];
-    int moved = 0;
+    char name[32], array[FMU_ARRAY_NAME];
+    int moved = 0, arrays_moved = 0;
     assert_non_null(all.item);
     for (size_t i = 0; i < NAMES; i++) {
-        snprintf(name, sizeof name, "scenario.x.%zu", i);
-        all.item[i].name = strdup(name);
-        all.item[i].unit = all.item[i].description = all.item[i].text = NULL;
+        snprintf(name, sizeof name, "scenario.%zu.%c", i / 3, "xyz"[i % 3]);
+        all.item[i] = (fmu_variable){.index = (int)i, .name = strdup(name), .unit = strdup("m")};
     }
     assert_true(fmu_variables_refer(&all));
     for (size_t i = 0; i < NAMES; i++) {
         assert_int_equal(fmu_variables_find(&all, all.item[i].reference), i);
         moved += all.item[i].reference != reference_by(all.item[i].name);
     }
-    printf("    %d of %d moved\n", moved, NAMES);
-    assert_in_range(moved, 1, 40); // NAMES^2 / 2^32 = 9.3 expected
+    for (size_t i = 0; i < NAMES; i += 3) {
+        assert_int_equal(fmu_variables_find_array(&all, all.item[i].array), i);
+        assert_int_equal(fmu_variables_find(&all, all.item[i].array), NAMES);
+        fmu_array_name(&all.item[i], array);
+        arrays_moved += all.item[i].array != reference_by(array);
+    }
+    printf("    %d of %d moved, %d of %d vectors\n", moved, NAMES, arrays_moved, NAMES / 3);
+    assert_in_range(moved, 1, 40);        // NAMES^2 / 2^32 = 9.3 expected
+    assert_in_range(arrays_moved, 1, 30); // NAMES^2 / 3 / 2^31 + NAMES^2 / 9 / 2^32 = 7.3
     fmu_variables_free(&all);
 }
 

@@ -99,6 +99,8 @@ static void make_identifier(contents *self)
     uint64_t digest = digest_bytes(DIGEST_BEGIN, &(char){(char)options->version}, 1);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         digest = digest_bytes(digest, texts[i] ? texts[i] : "*", strlen(texts[i] ? texts[i] : "*"));
+    if (options->arrays)
+        digest = digest_bytes(digest, "[]", 2);
     strcpy(self->identifier, "launchdyn");
     add_words(self->identifier, LONGEST_TITLE, self->model->title ? self->model->title : "");
     if (options->part != LD_FMU_ALL)
@@ -117,7 +119,8 @@ static ld_status print_description(const fmu_variables *variables, contents *sel
                                    .identifier = self->identifier,
                                    .start = variables->start,
                                    .stop = variables->stop,
-                                   .variables = variables};
+                                   .variables = variables,
+                                   .arrays = self->options.arrays};
     fmu_token(self->scenario, self->scenario_length, self->options.part, self->token);
     name_part(self->model, self->options.part, title);
     make_identifier(self);
@@ -262,6 +265,8 @@ static ld_status export_checked(const ld_model *model, const ld_fmu_options *opt
     char kind[16];
     if (options->version != 2 && options->version != 3)
         return ld_fail(error, LD_ERR_INPUT, "found FMI %d, expected 2 or 3", options->version);
+    if (options->arrays && options->version != 3)
+        return ld_fail(error, LD_ERR_INPUT, "found arrays with FMI 2, expected FMI 3");
     if (!ld_model_text(model, "base.kind", kind, sizeof kind, NULL) && strcmp(kind, "fmu") == 0)
         return ld_fail(
             error, LD_ERR_INPUT,

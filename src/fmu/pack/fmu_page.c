@@ -90,11 +90,18 @@ static void write_coupling(FILE *stream, const fmu_description *self)
     fputs("</li>\n</ul>\n", stream);
 }
 
-static void write_row(FILE *stream, const fmu_variable *v)
+// Of an array of that length, 1: of a variable that is none.
+static void write_row(FILE *stream, const fmu_variable *v, size_t length)
 {
     fputs("<tr><td><code>", stream);
-    fmu_write_text(stream, v->name);
-    fputs("</code></td><td>", stream);
+    if (length > 1)
+        fmu_write_array_name(stream, v);
+    else
+        fmu_write_text(stream, v->name);
+    fputs("</code>", stream);
+    if (length > 1)
+        fprintf(stream, " [%zu]", length);
+    fputs("</td><td>", stream);
     fmu_write_text(stream, v->unit);
     fputs("</td><td>", stream);
     if (v->text)
@@ -102,17 +109,19 @@ static void write_row(FILE *stream, const fmu_variable *v)
     else if (fmu_type_of(v) == FMU_BOOLEAN)
         fputs(v->start != 0 ? "true" : "false", stream);
     else if (!isnan(v->start))
-        fprintf(stream, "%.9g", v->start);
+        for (size_t i = 0; i < length; i++)
+            fprintf(stream, "%s%.9g", i > 0 ? " " : "", v[i].start);
     fputs("</td><td>", stream);
-    fmu_write_text(stream, v->description);
+    fmu_write_array_meaning(stream, v, length);
     fputs("</td></tr>\n", stream);
 }
 
-static void write_table(FILE *stream, const fmu_variables *all, const char *title,
+static void write_table(FILE *stream, const fmu_description *self, const char *title,
                         bool asked(const fmu_variable *))
 {
+    const fmu_variables *all = self->variables;
     bool begun = false;
-    for (size_t i = 0; i < all->count; i++) {
+    for (size_t i = 0; i < all->count; i += fmu_listed_length(self, i)) {
         if (!asked(&all->item[i]))
             continue;
         if (!begun)
@@ -121,7 +130,7 @@ static void write_table(FILE *stream, const fmu_variables *all, const char *titl
                     "<th>meaning</th></tr>\n",
                     title);
         begun = true;
-        write_row(stream, &all->item[i]);
+        write_row(stream, &all->item[i], fmu_listed_length(self, i));
     }
     if (begun)
         fputs("</table>\n", stream);
@@ -133,9 +142,9 @@ void fmu_page_write(const fmu_description *self, const ld_model *model, const ch
     write_head(stream, self, icon);
     write_words(stream, model);
     write_coupling(stream, self);
-    write_table(stream, self->variables, "Inputs", fmu_is_input);
-    write_table(stream, self->variables, "Outputs", fmu_is_output);
-    write_table(stream, self->variables, "Parameters", fmu_is_parameter);
-    write_table(stream, self->variables, "States, rates, event indicators", fmu_is_local);
+    write_table(stream, self, "Inputs", fmu_is_input);
+    write_table(stream, self, "Outputs", fmu_is_output);
+    write_table(stream, self, "Parameters", fmu_is_parameter);
+    write_table(stream, self, "States, rates, event indicators", fmu_is_local);
     fputs("</body>\n</html>\n", stream);
 }

@@ -124,5 +124,7 @@ void fmu_selection_take(const ld_fmu_options *options, fmu_variables *list)
     }
     list->count = kept;
     free(list->order);
-    list->order = NULL;
+    free(list->array_order);
+    list->order = list->array_order = NULL;
+    list->array_count = 0;
 }

@@ -151,6 +151,8 @@ ld_status ld_ssp_export(const ld_model *model, const ld_fmu_options *options, co
                         ld_error *error)
 {
     system_structure self = {.model = model, .options = options};
+    if (options->arrays)
+        return ld_fail(error, LD_ERR_INPUT, "found arrays, which connectors of SSP 1.0 cannot be");
     locale_t before = numeric_locale_enter();
     ld_status status = describe(&self, error);
     numeric_locale_leave(before);
