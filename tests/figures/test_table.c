@@ -52,7 +52,7 @@ static int add_bodies(void)
 static int set_up(void **state)
 {
     (void)state;
-    flight_system flight = {.earth = {.flat = true}};
+    flight_system flight = {.earth = {.flat = true}, .canopies = true};
     reference_vehicle(&model, 5);
     model.tubes.station_count = 1;
     model.tubes.station[0].at = 1;
