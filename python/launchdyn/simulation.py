@@ -70,13 +70,14 @@ class EventKind(enum.IntEnum):
     CORNER = 3  #: of the thrust curve, or of a commanded angle
     TOUCH = 4  #: adaptor `part` comes to the tube's wall
     BREECH = 5  #: the rocket comes to the breech
-    LIFT = 6  #: wheel `part` leaves the road
-    LAND = 7  #: wheel `part` comes back to it
-    LEAVE = 8  #: the tube leaves stop `part` of its recoil slides
-    STOP = 9  #: the tube comes to it
-    EXIT = 10  #: adaptor `part` passes the tube's tip
-    TUBE = 11  #: the rocket's tube takes the place of the one before
-    END = 12  #: of the launch
+    LINE = 6  #: the line that the rocket pulls becomes taut, or breaks
+    LIFT = 7  #: wheel `part` leaves the road
+    LAND = 8  #: wheel `part` comes back to it
+    LEAVE = 9  #: the tube leaves stop `part` of its recoil slides
+    STOP = 10  #: the tube comes to it
+    EXIT = 11  #: adaptor `part` leaves the guide
+    TUBE = 12  #: the rocket's tube takes the place of the one before
+    END = 13  #: of the launch
 
 
 class Event(NamedTuple):
