@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>
-#include <signal.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -274,7 +273,6 @@ static ld_status listen_on(live_server *self, int port, ld_error *error)
     struct mg_init_data init = {&callbacks, self, options};
     struct mg_error_data why = {.text = text, .text_buffer_size = sizeof text};
     self->context = http.start2(&init, &why);
-    signal(SIGCHLD, SIG_DFL); // which civetweb ignores, and an imported FMU wants
     if (!self->context || http.get_server_ports(self->context, 1, bound) != 1)
         return ld_fail(error, LD_ERR_MISSING, "%s", *said ? said : text);
     snprintf(self->address, sizeof self->address, "http://127.0.0.1:%d/%s/", bound[0].port,
