@@ -163,9 +163,9 @@ static void with_rates_of_inputs_the_order_is_three(void **state)
         error[i] = 1e3 * fabs(at[i].pitch_rate - exact);
     }
     CHECK_WITHIN("order of ramped inputs, 1 to 0.125 ms", log2(error[0] / error[2]) / 3, 2.8, 3.5);
-    CHECK_BELOW("pitch rate, ramped, at 1 ms [mrad/s]", error[0], 0.35);
-    CHECK_BELOW("ramped, at 0.25 ms", error[1], 5e-3);
-    CHECK_BELOW("ramped, at 0.125 ms", error[2], 6e-4);
+    CHECK_BELOW("pitch rate, ramped, at 1 ms [mrad/s]", error[0], 0.3);
+    CHECK_BELOW("ramped, at 0.25 ms", error[1], 4e-3);
+    CHECK_BELOW("ramped, at 0.125 ms", error[2], 5e-4);
     for (int i = 0; i < 3; i++)
         error[i] = fabs(at[i].missing) / at[i].largest;
     CHECK_BELOW("work missed by the ramp, of its size, at 1 ms", error[0], 4e-3);

@@ -6,10 +6,10 @@
 // positions and velocities, its attitude by that of the rotation vector against the first end
 // (Hermite). So the wrench alone is extrapolated: an FMU that holds its inputs is given the mean
 // over the step that the last two wrenches report, W_k + (W_k - W_k-1)/2, whose error is of second
-// order. One that takes rates of its inputs is given the ramp that has the integral and the first
-// moment, over the step, of the parabola through the last three: with the first and the second
-// difference D, E at t_k the mean W_k + D/2 + 5 E/12 and the rate (D + E)/step. Both the velocity
-// and the place that follow are then of third order.
+// order. One that takes rates of its inputs is given a ramp that has the mean, over the step, of
+// the parabola through the last three, and the rate of the last two: with the first and the second
+// difference D, E at t_k the mean W_k + D/2 + 5 E/12 and the rate D/step. Both the velocity and the
+// place that follow are then of third order.
 //
 // State, constant between the instants: F at both ends with their times, the last wrenches, works.
 #include <math.h>
@@ -357,7 +357,7 @@ static void choose_ramp(const fmu_base *self, const double wrench[WRENCH_SIZE], 
     for (int i = 0; i < WRENCH_SIZE; i++) {
         double first = state[FMU_STEPS] > 0 ? wrench[i] - last[i] : 0;
         double second = state[FMU_STEPS] > 1 ? first - (last[i] - before[i]) : 0;
-        double mean = wrench[i] + first / 2 + second * 5 / 12, slope = (first + second) / h;
+        double mean = wrench[i] + first / 2 + second * 5 / 12, slope = first / h;
         state[FMU_MEAN + i] = mean;
         state[FMU_SLOPE + i] = slope;
         inputs[i] = mean - slope * h / 2;
