@@ -94,7 +94,7 @@ static ld_status walk(foreign_instance *fmu, double stop, double step, const cho
     for (long k = 0; !status && (double)k * step < stop * (1 - 1e-12); k++) {
         print_row((double)k * step, number, outputs->count);
         foreign_stepping stepping = {(double)k * step, step, (uint32_t)inputs->count,
-                                     (uint32_t)outputs->count};
+                                     (uint32_t)outputs->count, false};
         int pieces;
         status = foreign_step(fmu, stepping.t, &stepping, values, number, &pieces, error);
     }
