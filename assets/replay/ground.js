@@ -155,7 +155,7 @@ export class Pulled {
   constructor(flight, group) {
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute("position", new Float32BufferAttribute(new Float32Array(3 * flight.line.length), 3));
-    this.drawn = new Line(this.geometry, line(COLOURS.hub));
+    this.drawn = new Line(this.geometry, line(COLOURS.line));
     this.drawn.frustumCulled = false;
     group.add(this.drawn);
   }

@@ -7,7 +7,7 @@ export const RING = 32; // points of a circle
 export const COLOURS = {
   tube: 0x2f7fd0, inside: 0x9cc3ea, rocket: 0xe8602c, stripe: 0xffd9c4, adaptor: 0xf2b632, force: 0x17a05d,
   vehicle: 0x8f989f, platform: 0xaab2b8, bright: 0xd3d8dc, wheel: 0x33383d, hub: 0xb9bfc4, other: 0x7f8fa0,
-  flame: 0xffb300,
+  flame: 0xffb300, line: 0xd6308f,
 };
 
 export const edge = line(0x20262b, { transparent: true, opacity: 0.55 });

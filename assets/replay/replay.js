@@ -61,6 +61,7 @@ class Replay {
     this.motion = this.table.kind === "flight" ? new FreeMotion(this.table, this.tools)
       : new Motion(this.table, this.geometry, this.rockets, this.tools);
     this.ways = this.rockets.map(({ ignition }, i) => this.flights[i] && new Flight(this.flights[i], ignition ?? 0, this.tools));
+    this.pulled = this.ways.some((way) => way?.line.length > 0); // a line
     this.chosen = this.rockets.length > 1 ? 0 : null; // of several launches the one that is shown, null: all
     this.build(host);
     this.stage = new Stage(this.canvas, this.motion, this.ways, this.rockets);
@@ -105,7 +106,8 @@ class Replay {
   setClock() {
     const aloft = this.stage.view === "path";
     this.clock = new Clock(this.motion, this.ways, this.chosen, aloft);
-    this.colourKey.hidden = aloft;
+    this.colourKey.hidden = aloft && !this.pulled;
+    for (const item of this.colourKey.children) item.hidden = aloft && !["rocket", "line"].includes(item.firstChild.className);
     this.nameInstants(this.ticks.clientWidth);
   }
   // Where the replay stands at first: the rocket on its way through the tube. It plays from shortly
@@ -163,11 +165,12 @@ class Replay {
   legend() {
     const { element } = this.tools, item = (name, text) =>
       element("span", {}, element("i", { className: name }), text);
-    if (this.motion.free) return element("div", { className: "key" }, item("rocket", "rocket, of an assumed size, and its path"));
+    const pulled = this.pulled ? [item("line", "line")] : [];
+    if (this.motion.free) return element("div", { className: "key" }, item("rocket", "rocket, of an assumed size, and its path"), ...pulled);
     const { guide, shoes } = this.motion.guide.words;
     return element("div", { className: "key" }, item("tube", guide), item("rocket", "rocket"),
       item("adaptor", shoes), item("force", "contact forces"), ...(this.motion.clamps.length > 0 ? [item("clamp", "clamps")] : []),
-      ...(this.motion.mechanism ? [item("joint", "joints")] : []));
+      ...(this.motion.mechanism ? [item("joint", "joints")] : []), ...pulled);
   }
   // What the clock covers of the launches' instants and, of one flight, of its own; the launch's own name of the exit is `rear`.
   instants() {
@@ -289,7 +292,7 @@ class Replay {
       for (const name of this.motion.slides) say("recoil", `recoil.${name}.travel`, "m");
     }
     if (this.stage.view === "path") words.push(this.stage.dots.length > 0 ? "rocket enlarged, dots: measured" : "rocket enlarged");
-    else if (this.motion.t.at(-1) < this.time) words.push("launcher at the end of its history");
+    if (!this.motion.free && this.motion.t.at(-1) < this.time) words.push("launcher at the end of its history");
     this.reading.textContent = words.join(" · ");
     this.canvas.setAttribute("aria-label", `Replay of the launch: ${words.join(", ")}`);
   }

@@ -2,7 +2,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { check, checkFits, checkHeight, checkInjected, checkNoneEmpty, drawn, inBrowser, launchdyn, launchdynEnding, leave, near, open, paper, picture,
-  rowNear, runOf, unfold } from "./support.mjs";
+  readCsv, rowNear, runOf, unfold } from "./support.mjs";
 
 // The numbers below a plot, the time first.
 const legend = (page, selector) => page.$$eval(`${selector} .u-value`, (cells) =>
@@ -928,6 +928,38 @@ async function checkPath(browser) {
   await leave(page);
 }
 
+// The line that a rocket pulls lies where the results have it, in a colour of its own, which the legend of the path says, too;
+// it is said that the launcher, from which the line's container goes on, is drawn as at the end of its history.
+async function checkLine(browser) {
+  console.log("line-thrower.yaml on a ship");
+  const run = runOf("line-thrower.yaml", "--set", "base.kind=prescribed", "--set", "base.looks=ship", "--set", "run.lead_in='0.1 s'",
+    "--set", "base.motion.heave=[{amplitude: 1 m, frequency: 0.2 Hz}]"), flight = readCsv(join(run.out, "flights.csv"));
+  for (const dark of [false, true]) {
+    const page = await open(browser, run.file, { width: 700, dark }), t = flight.get("t"), row = rowNear(t, 0.6 * t.at(-1));
+    const found = await page.evaluate((time) => {
+      const replay = window.launchdyn.current, { stage } = replay, [{ drawn }] = stage.lines, { array } = drawn.geometry.attributes.position;
+      const said = (view) => {
+        replay.look(view);
+        replay.show(replay.zero + time, true);
+        const items = [...replay.colourKey.children].filter((node) => node.checkVisibility());
+        return { view, names: items.map((node) => node.textContent).join(), reading: replay.reading.textContent,
+          colour: items.map((node) => getComputedStyle(node.firstChild).backgroundColor).at(-1) };
+      };
+      const views = ["launcher", "path"].map(said);
+      return { views, drawn: `#${drawn.material.color.getHexString()}`, seen: drawn.visible, places: Array.from(array, (v, i) => v + stage.anchor[i % 3]) };
+    }, t[row]);
+    const off = found.places.map((v, i) => Math.abs(v - flight.get(`line.${1 + Math.floor(i / 3)}.${"xyz"[i % 3]}`)[row]));
+    check("the line lies where the results have it", found.seen && off.length === 36 && Math.max(...off) < 1e-3, `${Math.max(...off)} m off`);
+    const [near, far] = found.views, text = JSON.stringify(found.views);
+    check("the legend has it", near.names.endsWith("contact forces,line") && far.names === "rocket,line", text);
+    const hex = (colour) => `#${colour.match(/\d+/g).map((v) => Number(v).toString(16).padStart(2, "0")).join("")}`;
+    check("in its colour", found.views.every(({ colour }) => hex(colour) === found.drawn), `${found.drawn} ${text}`);
+    check("the launcher is said to be that of the end of its history", found.views.every(({ reading }) => reading.endsWith("launcher at the end of its history")), text);
+    await picture(page, `line-${dark ? "dark" : "light"}.png`);
+    await leave(page);
+  }
+}
+
 async function checkHostile(browser) {
   console.log("a title that would be code");
   const title = "</title></script><script>window.owned=1</script><img src=x onerror=window.owned=1>";
@@ -968,6 +1000,7 @@ await inBrowser(async (browser) => {
   await checkTrailer(browser);
   await checkPath(browser);
   await checkDescent(browser);
+  await checkLine(browser);
   await checkVertical(browser);
   await checkHostile(browser);
 });
