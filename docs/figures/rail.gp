@@ -142,3 +142,43 @@ do for [k = 1:3] {
          out."/rigid-".file[k].".txt" using 1:j with lines lc "black" dt 2 title "closed form"
 }
 unset multiplot
+
+# ---- drag of the guide ----
+set output "docs/figures/rail-drag.svg"
+set terminal svg size 900,380
+set multiplot layout 1,2
+set xrange [0.4:5]
+set yrange [0:320]
+set key default top right samplen 2
+set xlabel "rear shoe's place on the rail [m]"
+set ylabel "force against sliding [N]"
+set arrow from 3.4, graph 0 to 3.4, graph 1 nohead lc "gray"
+array taken[3] = ["none", "travel", "speed"]
+array meant[3] = ["friction alone", "drag over the travel", "drag over the speed"]
+plot for [k = 1:3] out."/drag-".taken[k].".txt" using 1:2 with lines lw 1.5 lc k title meant[k]
+unset arrow
+set xrange [0:200]
+set yrange [*:*]
+set xlabel "drag of the guide, constant [N]"
+set ylabel "pitch rate at the exit [mrad/s]"
+plot out."/drag.txt" using 1:2 with linespoints pt 7 ps 0.4 lc 1 title name[1], \
+     out."/drag-stiff.txt" using 1:2 with linespoints pt 7 ps 0.4 lc 3 title name[3], \
+     out."/rigid-drag.txt" using 1:2 with lines lc "black" dt 2 title "closed form"
+unset multiplot
+
+# ---- wind and jet on the guide ----
+set output "docs/figures/rail-loads.svg"
+set multiplot layout 1,2
+set datafile separator ","
+set xrange [0:0.8]
+set xlabel "time from ignition [s]"
+set ylabel "bending moment about y at 2.21 m [N m]"
+set key default bottom right samplen 2
+array air[3] = ["free", "wind", "gusts"]
+array blown[3] = ["9 m/s on the rocket alone", "and on the rail", "and with gusts"]
+plot for [k = 1:3] out."/load-".air[k]."/history.csv" every 5 using "t [s]":"station.1.bending_y [N.m]" with lines lw 1.5 lc k title blown[k]
+set ylabel "axial force at 2.21 m [N]"
+set key default bottom right samplen 2
+plot out."/load-calm/history.csv" every 5 using "t [s]":"station.1.axial [N]" with lines lw 1.5 lc 1 title "no jet on the rail", \
+     out."/load-jet/history.csv" every 5 using "t [s]":"station.1.axial [N]" with lines lw 1.5 lc 2 title "jet on the rail"
+unset multiplot
