@@ -79,6 +79,7 @@ typedef struct launching_input {
     moving_air air;                   // about the rocket; read where it feels it
     air_about about;                  // the guide
     double guide_jet;                 // [N] of the rocket that has left, on the guide's front end
+    double guide_jet_at[2];           // [m] where, y and z of the section from the tip's axis
     const aerodynamics *aerodynamics; // of the whole rocket, on an open guide; NULL: none
     bool power;                       // the thrust table has not ended: for those
     const launching_load *load;       // where it is linearised; NULL: none

@@ -145,9 +145,10 @@ LD_INLINE void section_rates_load(const element_motion *motion, const axis_secti
     }
 }
 
-// A point of the tube's own axis, without an initial shape; its velocity, in R.
+// A point of the tube's own axis, without an initial shape; its velocity, in R, and the rate w at
+// which its section turns.
 LD_OUTLINE v3 axis_point_load(const tube_system *self, const tube_state *tube, double x,
-                              axis_section *at)
+                              axis_section *at, v3 *w)
 {
     element_motion motion;
     section_rates rates;
@@ -156,6 +157,7 @@ LD_OUTLINE v3 axis_point_load(const tube_system *self, const tube_state *tube, d
     motion.initial = NULL;
     section_load(self, &motion, x, at);
     section_rates_load(&motion, at, &rates);
+    *w = v3_add(tube->w, rates.w);
     return v3_add(v3_add(tube->v, v3_cross(tube->w, at->P)), rates.u_dot);
 }
 

@@ -30,10 +30,14 @@ static v3 tip_of(const launching_system *launching, const double *y)
     return v3_axpy(v3_from(y + at->r), launching->tube.flexible.length, axis);
 }
 
-static double jet_on_guide(const launch_state *self, double t, const double *y)
+static void find_jet(const launch_state *self, double t, const double *y, launching_input *input)
 {
+    const launching_system *launching = &self->launcher.launching;
     int tube = model_firing(self->model, self->launcher.base.tube)->tube;
-    return jets_on_guide(&self->jets, t, tip_of(&self->launcher.launching, y), tube);
+    m3 A = q_matrix(q_from(y + launching->layout.quaternion));
+    jet_load load = jets_on_guide(&self->jets, t, tip_of(launching, y), A, tube);
+    input->guide_jet = load.force;
+    memcpy(input->guide_jet_at, load.at, sizeof load.at);
 }
 
 // The air about the guide, its turbulence that at the tip of the undeformed one.
@@ -69,7 +73,9 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     input->load = disturbed ? &disturbed->input.launching : NULL;
     input->record = NULL;
     input->about.at = NULL;
-    input->guide_jet = self->jets.count ? jet_on_guide(self, t, y) : 0;
+    input->guide_jet = 0;
+    if (self->jets.count)
+        find_jet(self, t, y, input);
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
     if (self->air && self->launcher.launching.wind.count)

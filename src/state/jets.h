@@ -13,6 +13,18 @@ typedef struct jet_place {
     v3 r, v;
 } jet_place;
 
+// Of a rocket: O1, and its axis.
+typedef struct jet_pose {
+    double t;
+    v3 r, v, axis;
+} jet_pose;
+
+// On the front end of a guide: a force along its axis backwards, at y and z from that.
+typedef struct jet_load {
+    double force; // [N]
+    double at[2]; // [m]
+} jet_load;
+
 // One rocket that has left.
 typedef struct jet {
     const flight_system *flight;
@@ -22,7 +34,7 @@ typedef struct jet {
     int tube;        // that it left, number from 1
     jet_place mouth; // of that tube as the rocket left
     int count;
-    jet_place *place; // [count] of O1, from there on, owned
+    jet_pose *place; // [count] from there on, owned
 } jet;
 
 typedef struct jets {
@@ -45,9 +57,13 @@ ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *
 // Their wrench at t, T being `tube` and that of the tube `launching`.
 jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching);
 
-// The force [N] on the front end, at `tip` of I, of the tube `launching`, backwards: that of the
-// rockets that have left it.
-double jets_on_guide(const jets *self, double t, v3 tip, int launching);
+// The load of a round jet on a ring, in axes of the ring from its centre, x normal to it: `thrust`
+// [N], `r` [m] where the nozzle is, `axis` that of the rocket, of length 1 (model.md, section 5).
+jet_load jet_on_face(const ld_jet_face *face, double thrust, v3 r, v3 axis);
+
+// The load on the front end of the tube `launching`, at `tip` of I, with axes A there: that of the
+// rocket that has left it.
+jet_load jets_on_guide(const jets *self, double t, v3 tip, m3 A, int launching);
 
 // The first corner of a thrust curve that lies ahead.
 double jets_next_corner(const jets *self);

@@ -1383,14 +1383,16 @@ static void add_guide_wind(equations *eq, const jet_scene *scene, const dense_co
     turn_back(output->guide_wind, scene->state->A_R[0], sum);
 }
 
-static void add_guide_jet(equations *eq, const jet_scene *scene, double force)
+static void add_guide_jet(equations *eq, const jet_scene *scene, const dense_conditions *on)
 {
     jet_frame tip = tube_section_in_I(scene, scene->dense->model->tubes.length);
+    const double force = on->guide_jet, at[3] = {0, on->guide_jet_at[0], on->guide_jet_at[1]};
+    jet3 local = jet3_constant(at), point = point_in(&tip, &local);
     double f[3];
     for (int i = 0; i < 3; i++)
         f[i] = -force * tip.A.c[i][0].v;
-    add_force(eq->h, &tip.r, f);
-    add_force(eq->other, &tip.r, f);
+    add_force(eq->h, &point, f);
+    add_force(eq->other, &point, f);
 }
 
 // On an open guide: the air of the flight's own equations (support/dense_flight.c) on the rocket.
@@ -1721,7 +1723,7 @@ bool dense_launch_rates(const dense_launch *dense, const dense_state *state,
     add_crossflow(&eq, &moving, conditions, s.v, output);
     add_open_air(&eq, &moving, conditions, output);
     add_guide_wind(&eq, &moving, conditions, output);
-    add_guide_jet(&eq, &moving, conditions->guide_jet);
+    add_guide_jet(&eq, &moving, conditions);
     if (slotted)
         add_slot(&eq, &moving, conditions, s, output);
     if (conditions->locked)

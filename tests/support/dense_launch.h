@@ -88,6 +88,7 @@ typedef struct dense_conditions {
     double air[3], density;             // [m/s] velocity of the air, in I; [kg/m3]
     double sound;                       // [m/s] speed of sound
     double guide_jet;                   // [N] on the guide's front end, backwards
+    double guide_jet_at[2];             // [m] y and z there from the axis
     bool power;                         // the thrust table has not ended
     int slide_stop[LD_MAX_SUPPORTS][2]; // front and rear stop of a support's slide: 0 as its travel
                                         // says, 1 pushes, -1 does not (held by an integrator)

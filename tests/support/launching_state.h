@@ -159,6 +159,7 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->sound = c->input.air.speed_of_sound;
     conditions->power = c->input.power;
     conditions->guide_jet = c->input.guide_jet;
+    memcpy(conditions->guide_jet_at, c->input.guide_jet_at, sizeof conditions->guide_jet_at);
     conditions->breech_speed = c->phase.breech_speed;
 }
 

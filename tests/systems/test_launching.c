@@ -120,6 +120,8 @@ static void blow_on_guide(uint64_t *seed, launching_case *c)
     air.v = v3_sub(air.v, gust);
     c->input.about.turbulence = gust;
     c->input.guide_jet = 500 * (1 + draw(seed));
+    c->input.guide_jet_at[0] = 3e-5 * c->input.guide_jet;
+    c->input.guide_jet_at[1] = -5e-5 * c->input.guide_jet;
 }
 
 static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name)

@@ -176,7 +176,7 @@ static void impulse_on_a_free_vehicle(void **state)
                  .place = calloc(PLACES, sizeof *one->place)};
     for (int i = 0; i < PLACES; i++)
         one->place[i] =
-            (jet_place){1e-3 * i, course_at(from, along, 1e-3 * i), v3_scale(60, along)};
+            (jet_pose){1e-3 * i, course_at(from, along, 1e-3 * i), v3_scale(60, along), along};
     self->jets.count = 1;
     propagator *stepper = NULL;
     if (propagator_create(self, false, &stepper, &error) ||

@@ -48,7 +48,8 @@ static void blow_at(double x, double half_width, const tube_system *guide,
     const tube_state *tube = &now->tube;
     const air_about *about = &now->input->about;
     axis_section *at = &to->at;
-    to->v = axis_point_load(guide, tube, x, at);
+    v3 w;
+    to->v = axis_point_load(guide, tube, x, at, &w);
     v3 place = v3_add(tube->r, m3_apply(tube->A_IR, at->P));
     moving_air air = about->at(about->self, about->t, place);
     v3 flow = v3_add(air.v, about->turbulence);

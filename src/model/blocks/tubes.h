@@ -91,6 +91,16 @@ typedef struct ld_initial_shape {
     ld_rail_joint joint[LD_MAX_RAIL_JOINTS];
 } ld_initial_shape;
 
+/// Ring of a guide's front end in a round jet of Gaussian pressure that bears the thrust at any
+/// distance.
+typedef struct ld_jet_face {
+    bool present;
+    double inner, outer; ///< [m] radii of the ring
+    double radius;       ///< [m] of the jet at the nozzle, where the pressure is 1/e of the axis'
+    double spread;       ///< [-] growth of that radius over the distance
+    double reach;        ///< [m] distance at which the jet ends
+} ld_jet_face;
+
 typedef struct ld_tubes {
     ld_layout layout;
     char on[LD_MAX_NAME]; ///< body that carries them (multibody)
@@ -115,7 +125,8 @@ typedef struct ld_tubes {
     int wind_drag_count;
     ld_wind_drag wind_drag[LD_MAX_WIND_DRAGS];
     ld_table jet; ///< distance from the tip [m], force of a jet on the front end [N]; empty: none
-    double jet_scale; ///< [-] factor on the force
+    double jet_scale;     ///< [-] factor on the force
+    ld_jet_face jet_face; ///< instead of `jet`
 } ld_tubes;
 
 #endif

@@ -923,6 +923,21 @@ static const field_row wind_drag_fields[] = {
     {0}};
 static const field_block wind_drag_block = {.fields = wind_drag_fields};
 
+static const field_row jet_face_fields[] = {
+    {"inner_radius", NUMBER(ld_jet_face, inner, "m"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "of the ring's hole"},
+    {"outer_radius", NUMBER(ld_jet_face, outer, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "of the ring, up to 8 times `radius`"},
+    {"radius", NUMBER(ld_jet_face, radius, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "of the jet at the nozzle, where its pressure is 1/e of that on its axis"},
+    {"spread", NUMBER(ld_jet_face, spread, ""), FROM_TO(0, 1), REQUIRED,
+     .doc = "growth of that radius over the distance"},
+    {"ends_at", NUMBER(ld_jet_face, reach, "m"), ABOVE_TO(0, 1000), REQUIRED,
+     .doc = "distance; over its last tenth the jet fades"},
+    {0}};
+static const field_block jet_face_block = {.fields = jet_face_fields};
+static const field_word jet_face_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+
 static const field_row tubes_fields[] = {
     {"on", WORD(ld_tubes, on), .initial_doc = "none",
      .doc = "body or beam of a base of kind multibody that carries them; on a beam each support "
@@ -970,6 +985,9 @@ static const field_row tubes_fields[] = {
          "greatest thrust; over the distance from tip to rear adaptor, linear"},
     {"jet_scale", NUMBER(ld_tubes, jet_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
      .doc = "factor on that force"},
+    {"jet_face", BLOCK(ld_tubes, jet_face, jet_face_block), .silent = true, .initial_doc = "none",
+     SWITCH(ld_tubes, jet_face.present, jet_face_words), .other_is_bool = true,
+     .doc = "instead of `jet`: ring about the tip in a round jet of the rocket's thrust"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 

@@ -198,6 +198,22 @@ static void jet_rules(const rule_set *rules, const char *name, const ld_table *j
         report_broken(rules, name, 0, "needs at least two rows");
 }
 
+static void jet_face_rules(const rule_set *rules)
+{
+    const ld_tubes *tubes = &rules->model->tubes;
+    const ld_jet_face *face = &tubes->jet_face;
+    if (!face->present)
+        return;
+    if (tubes->jet.rows > 0)
+        report_broken(rules, "tubes.jet_face", 0, "not with tubes.jet");
+    if (face->inner >= face->outer)
+        report_broken(rules, "tubes.jet_face.outer_radius", 0,
+                      "must be more than inner_radius, %g m", face->inner);
+    if (face->outer > 8 * face->radius)
+        report_broken(rules, "tubes.jet_face.outer_radius", 0,
+                      "must be at most 8 times radius, which makes %g m", 8 * face->radius);
+}
+
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,
                          bool pitch)
 {
@@ -216,6 +232,7 @@ void vehicle_rules(const rule_set *rules)
     const ld_platform *platform = &rules->model->platform;
     jet_rules(rules, "platform.jet", &platform->jet);
     jet_rules(rules, "tubes.jet", &rules->model->tubes.jet);
+    jet_face_rules(rules);
     bool wheels = model_has_multibody(rules->model) && rules->model->base.vehicle.wheel_count > 0;
     if (!model_has_vehicle(rules->model) && !wheels)
         return;
