@@ -145,6 +145,27 @@ static void impulse_of_a_round_jet(void **state)
     reference_model_free(&model);
 }
 
+// A soft guide, turned by a rocket that drifts off its axis.
+static void energy_of_a_ring_hit_aside(void **state)
+{
+    (void)state;
+    ld_model model;
+    reference_model(&model);
+    for (int k = 0; k < model.tubes.support_count; k++)
+        model.tubes.support[k].stiffness[1] *= 0.1;
+    model.tubes.jet_face = ring;
+    model.tubes.jet_scale = scale;
+    model.run.tolerance = 1e-9;
+    model.run.end = LD_END_TIME;
+    model.run.end_time = 0.4;
+    ld_summary run = summary_of_run(&model);
+    printf("  work of the jet %.3f J, largest %.0f J\n", run.energy.work[POWER_GUIDE_JET],
+           run.energy.residual / run.energy.residual_relative);
+    CHECK_BELOW("energy residual, over the work of the jet",
+                run.energy.residual / run.energy.work[POWER_GUIDE_JET], 5e-9);
+    reference_model_free(&model);
+}
+
 // Force, and its moments as y and z times the pressure, by the sum over a ring's area: Simpson's
 // rule along the radius, evenly about it; the ring's axes are those of A, its centre `tip`.
 static void sum_over_ring(const ld_jet_face *face, double thrust, v3 O1, v3 axis, v3 tip, m3 A,
@@ -243,9 +264,8 @@ static void ring_off_the_axis(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(impulse_over_the_exit),
-        cmocka_unit_test(impulse_of_a_round_jet),
-        cmocka_unit_test(momentum_is_the_thrust),
+        cmocka_unit_test(impulse_over_the_exit),      cmocka_unit_test(impulse_of_a_round_jet),
+        cmocka_unit_test(energy_of_a_ring_hit_aside), cmocka_unit_test(momentum_is_the_thrust),
         cmocka_unit_test(ring_off_the_axis),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
