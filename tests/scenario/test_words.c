@@ -126,10 +126,11 @@ static void test_air(void **state)
 static void test_line(void **state)
 {
     (void)state;
-    const char *sets[] = {
+    const char *line_set =
         "rocket.line={length: 250 m, mass_per_length: 8 g/m, diameter: 4 mm, stiffness: 10 kN, "
-        "slack: 0.4 m, breaking_force: 2 kN, container_on: launcher}",
-        "tubes.layout={rows: 1, columns: 1}", "firing=[{tube: 1, at: 0 s}]"};
+        "slack: 0.4 m, breaking_force: 2 kN, container_on: launcher}";
+    const char *sets[] = {line_set, "tubes.layout={rows: 1, columns: 1}",
+                          "firing=[{tube: 1, at: 0 s}]"};
     const char *const words =
         "# line: 250 m of 8 g/m, out of a container on the launcher, 0.4 m of "
         "it slack; it breaks at 2 kN\n";
