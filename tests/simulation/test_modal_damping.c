@@ -13,11 +13,14 @@
 enum { TUBES = 25, POSES = 4, MOST = 2 * LD_MAX_STATES };
 static const double TWO_PI = 6.283185307179586476925286766559;
 
-// A random launcher without wind on the guide, which damps; its adaptors leave at the tip.
+// A random launcher without wind on the guide and drag over the speed, which damp; its adaptors
+// leave at the tip.
 static void draw_launcher(uint64_t seed, ld_model *model)
 {
     draw_random_model(seed, model);
     model->tubes.wind_drag_count = 0;
+    free(model->rocket.contact.drag_over_speed.data);
+    model->rocket.contact.drag_over_speed = (ld_table){0};
     for (int i = 0; i < model->rocket.adaptor_count; i++)
         model->rocket.adaptor[i].leaves_at = NAN;
 }
