@@ -42,18 +42,24 @@ static void expected_forces(const rocket_mass *mass, double l, double rear, doub
     force[0] = sum - force[1];
 }
 
+// The reference without gravity, on a guide that nothing moves.
+static void unmoved_model(ld_model *model)
+{
+    reference_model(model);
+    model->gravity = 0;
+    model->tubes.tail = (ld_tail){0};
+    model->tubes.section[0].mass_per_length = 1e12;
+    model->tubes.section[0].polar_inertia = 1e10;
+    model->tubes.modes.bending = 2;
+    model->tubes.slot.kind = LD_SLOT_NONE;
+}
+
 // The largest error of the forces along the guide, of the largest force, with so many rows.
 static double error_on_a_sine(int rows)
 {
     const double a[2] = {2e-5, -3e-5}, k = 2 * PI / 0.8, v = 37;
     ld_model model;
-    reference_model(&model);
-    model.gravity = 0;
-    model.tubes.tail = (ld_tail){0};
-    model.tubes.section[0].mass_per_length = 1e12; // nothing moves it
-    model.tubes.section[0].polar_inertia = 1e10;
-    model.tubes.modes.bending = 2;
-    model.tubes.slot.kind = LD_SLOT_NONE;
+    unmoved_model(&model);
     model.rocket.contact.law = LD_CONTACT_IDEAL;
     model.rocket.adaptor_count = 2;
     double l = model.rocket.adaptor[1].at, worst = 0, largest = 0, bend = -k * k * v * v;
@@ -397,13 +403,7 @@ static void ride_over(const char *name, const ld_rail_joint *joint)
 {
     ld_model model;
     launching_run run;
-    reference_model(&model);
-    model.gravity = 0;
-    model.tubes.tail = (ld_tail){0};
-    model.tubes.section[0].mass_per_length = 1e12; // nothing moves it
-    model.tubes.section[0].polar_inertia = 1e10;
-    model.tubes.modes.bending = 2;
-    model.tubes.slot.kind = LD_SLOT_NONE;
+    unmoved_model(&model);
     model.tubes.initial_shape = (ld_initial_shape){.present = true, .joint_count = 1};
     model.tubes.initial_shape.joint[0] = *joint;
     ld_rocket *rocket = &model.rocket;
