@@ -76,34 +76,27 @@ static int refuse_for(const answering *self, ld_status status, const ld_error *e
                   error->text);
 }
 
-static int send_page(const answering *self)
+// The page; where a scenario was posted, what follows from it.
+static ld_status write_answer(const answering *self, const char *posted, size_t size, FILE *stream,
+                              ld_error *error)
 {
-    char *text = NULL;
-    size_t length = 0;
-    ld_error error;
-    FILE *stream = open_memstream(&text, &length);
-    ld_status status = stream ? ld_live_page(self->server->live, stream, &error)
-                              : ld_fail(&error, LD_ERR_MEMORY, "no memory for the page");
-    if (stream && fclose(stream) != 0 && !status)
-        status = ld_fail(&error, LD_ERR_MEMORY, "no memory for the page");
-    int code = status ? refuse_for(self, status, &error)
-                      : respond(self, "200 OK", "text/html", text, length);
-    free(text);
-    return code;
+    return posted ? ld_live_launch(self->server->live, posted, size, stream, error)
+                  : ld_live_page(self->server->live, stream, error);
 }
 
-static int send_launch(const answering *self, const char *posted, size_t size)
+// `posted` NULL: nothing was.
+static int send_answer(const answering *self, const char *posted, size_t size)
 {
     char *text = NULL;
     size_t length = 0;
     ld_error error;
     FILE *stream = open_memstream(&text, &length);
-    ld_status status = stream ? ld_live_launch(self->server->live, posted, size, stream, &error)
-                              : ld_fail(&error, LD_ERR_MEMORY, "no memory for a launch");
+    ld_status status = stream ? write_answer(self, posted, size, stream, &error)
+                              : ld_fail(&error, LD_ERR_MEMORY, "no memory for the answer");
     if (stream && fclose(stream) != 0 && !status)
-        status = ld_fail(&error, LD_ERR_MEMORY, "no memory for a launch");
+        status = ld_fail(&error, LD_ERR_MEMORY, "no memory for the answer");
     int code = status ? refuse_for(self, status, &error)
-                      : respond(self, "200 OK", "text/plain", text, length);
+                      : respond(self, "200 OK", posted ? "text/plain" : "text/html", text, length);
     free(text);
     return code;
 }
@@ -122,7 +115,7 @@ static int take_launch(const answering *self)
     for (int part = 1; got < size && part > 0; got += part > 0 ? part : 0)
         part = http.read(self->connection, posted + got, (size_t)(size - got));
     int code = got == size
-                   ? send_launch(self, posted, (size_t)size)
+                   ? send_answer(self, posted, (size_t)size)
                    : refuse(self, "400 Bad Request", "the request has ended before its length");
     free(posted);
     return code;
@@ -169,7 +162,7 @@ static int answer_as_is(const answering *self)
     if (!wanted || !is_ours(self, "Host", "", true) || !is_ours(self, "Origin", "http://", false))
         return refuse(self, "403 Forbidden", "use the address that launchdyn live has printed");
     if (strcmp(wanted, "") == 0 && strcmp(method, "GET") == 0)
-        return send_page(self);
+        return send_answer(self, NULL, 0);
     if (strcmp(wanted, "launch") == 0 && strcmp(method, "POST") == 0)
         return take_launch(self);
     return refuse(self, "404 Not Found", "here are the page and its launches");

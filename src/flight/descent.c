@@ -56,6 +56,11 @@ static void end_step(dormand_prince *steps, double t)
         dormand_prince_retake(steps, t);
 }
 
+descent descent_none(void)
+{
+    return (descent){.t_switch = NAN, .t_full = NAN};
+}
+
 void descent_locate(descent *self, const flight_phase *phase, dormand_prince *steps)
 {
     self->t_switch = self->t_full = NAN;

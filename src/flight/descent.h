@@ -13,6 +13,9 @@ typedef struct descent {
     bool filling, taken; // since the lines were first taut; their first maximum is known
 } descent;
 
+// Of a parachute that has just come out.
+descent descent_none(void);
+
 // Absolute tolerances of the states below a parachute by the relative one.
 void descent_set_tolerances(const flight_system *system, dormand_prince *steps, double tolerance);
 

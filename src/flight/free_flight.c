@@ -561,7 +561,7 @@ static void put_canopy_out(flight_run *run, int i, double t, double *y)
     canopy_open(system, &run->phase, i, t, y);
     flight_hang(system, &run->phase, t, one->canopy.packed_area);
     run->canopy = i;
-    run->descent = (descent){.t_switch = NAN, .t_full = NAN};
+    run->descent = descent_none();
     run->t_full = INFINITY;
     run->area = one->drag_area;
     run->opened[i] = true;
@@ -1092,7 +1092,7 @@ ld_status flight_run_begin(flight_run *run, const free_flight *job, const double
                         .t_topped = NAN,
                         .t_full = INFINITY,
                         .canopy = -1,
-                        .descent = {.t_switch = NAN, .t_full = NAN}};
+                        .descent = descent_none()};
     rocket->flown = true;
     set_triggers(run);
     flight_flow about = flight_flow_at(job->system, job->t_start, state);

@@ -117,32 +117,40 @@ bool fmu_variables_refer(fmu_variables *self)
     return fine;
 }
 
-size_t fmu_variables_find(const fmu_variables *self, unsigned reference)
+static unsigned own_reference(const fmu_variable *one)
 {
-    size_t low = 0, high = self->count;
+    return one->reference;
+}
+
+static unsigned array_reference(const fmu_variable *one)
+{
+    return one->array;
+}
+
+// Among `count` places in the order of those references.
+static size_t find(const fmu_variables *self, const size_t *order, size_t count,
+                   unsigned reference_of_one(const fmu_variable *), unsigned reference)
+{
+    size_t low = 0, high = count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        if (self->item[self->order[middle]].reference < reference)
+        if (reference_of_one(&self->item[order[middle]]) < reference)
             low = middle + 1;
         else
             high = middle;
     }
-    bool found = low < self->count && self->item[self->order[low]].reference == reference;
-    return found ? self->order[low] : self->count;
+    bool found = low < count && reference_of_one(&self->item[order[low]]) == reference;
+    return found ? order[low] : self->count;
+}
+
+size_t fmu_variables_find(const fmu_variables *self, unsigned reference)
+{
+    return find(self, self->order, self->count, own_reference, reference);
 }
 
 size_t fmu_variables_find_array(const fmu_variables *self, unsigned reference)
 {
-    size_t low = 0, high = self->array_count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (self->item[self->array_order[middle]].array < reference)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    bool found = low < self->array_count && self->item[self->array_order[low]].array == reference;
-    return found ? self->array_order[low] : self->count;
+    return find(self, self->array_order, self->array_count, array_reference, reference);
 }
 
 // ---- arrays ----
