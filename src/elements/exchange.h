@@ -66,6 +66,13 @@ typedef struct air_about {
         *going; // the base held still goes like this through the air; NULL: it does not
 } air_about;
 
+// A jet on a part of the guide that is fixed to one of its sections.
+typedef struct guide_push {
+    double hit; // [N] force of the jet that hits it
+    v3 force;   // [N] on the part, in axes of the section
+    v3 at;      // [m] where, from the section's axis point
+} guide_push;
+
 // What comes from outside at one instant.
 typedef struct launching_input {
     base_frame base;
@@ -78,8 +85,7 @@ typedef struct launching_input {
     rocket_mass mass;
     moving_air air;                   // about the rocket; read where it feels it
     air_about about;                  // the guide
-    double guide_jet;                 // [N] of the rocket that has left, on the guide's front end
-    double guide_jet_at[2];           // [m] where, y and z of the section from the tip's axis
+    guide_push jet_face, deflector;   // of the rocket's jet; no hit: none
     const aerodynamics *aerodynamics; // of the whole rocket, on an open guide; NULL: none
     bool power;                       // the thrust table has not ended: for those
     const launching_load *load;       // where it is linearised; NULL: none
@@ -136,7 +142,7 @@ typedef struct shoe_report {
 #define GUIDE_WIND_WORKS(X) X(POWER_GUIDE_WIND, "guide_wind", "work of the wind on the guide")
 
 // That of the jet on the guide's front end.
-#define GUIDE_JET_WORKS(X) X(POWER_GUIDE_JET, "guide_jet", "work of the jet on the guide")
+#define GUIDE_JET_WORKS(X) X(POWER_GUIDE_JET, "guide_jet", "work of the jet on guide and deflector")
 
 enum launching_power {
     LAUNCHING_WORKS(WORK_PLACE) CROSSFLOW_WORKS(WORK_PLACE) PRESSURE_WORKS(WORK_PLACE)
@@ -169,6 +175,7 @@ typedef struct launching_output {
     double emerged;           // [m] length of the rocket that is out of the tube, in the air
     v3 crossflow;             // [N] force of the air on it, in R
     double guide_jet;         // [N] of the jet on the guide's front end
+    double deflector;         // [N] of the jet that hits it
     v3 guide_wind;            // [N] of the wind on the guide, where it feels it, in R
     double air_mach;          // of the mass centre through the air, where all of it feels that
     v3 air_force, air_moment; // [N], [N m] of the air on it, about the mass centre, in R

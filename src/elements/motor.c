@@ -386,6 +386,8 @@ ld_status motor_build(motor *self, const ld_rocket *rocket, int place, ld_error 
         status = join_further(self, rocket, error);
     if (status)
         motor_free(self);
+    for (size_t k = 0; k < self->corner_count; k++)
+        self->greatest = fmax(self->greatest, self->thrust[k]);
     return status;
 }
 

@@ -48,6 +48,7 @@ typedef struct motor {
     size_t corner_count;
     double *t;               // [corner_count] s after ignition, owned
     double *thrust;          // [corner_count] N
+    double greatest;         // [N] of them
     double *impulse;         // [corner_count] N s burnt up to the corner
     double propellant;       // [kg]
     rocket_mass full, empty; // with mass error and eccentricity; rates unused

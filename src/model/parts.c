@@ -183,7 +183,8 @@ bool model_has_jet(const ld_model *model)
 bool model_has_guide_jet(const ld_model *model)
 {
     const ld_tubes *tubes = &model->tubes;
-    return model_has_launcher(model) && (tubes->jet.rows > 0 || tubes->jet_face.present);
+    return model_has_launcher(model) &&
+           (tubes->jet.rows > 0 || tubes->jet_face.present || tubes->deflector.present);
 }
 
 bool model_has_jets(const ld_model *model)

@@ -26,6 +26,7 @@ typedef enum quantity_each {
     EACH_LINE,
     EACH_GUIDE_WIND,
     EACH_GUIDE_JET,
+    EACH_DEFLECTOR,
     EACH_DESCENT,
     EACH_COORDINATE, // modal, of the tube
     EACH_ADAPTOR,

@@ -68,6 +68,7 @@ quantity_things quantity_things_of(const ld_model *model)
                   [EACH_LINE] = rocket->line.present,
                   [EACH_GUIDE_WIND] = model_has_guide_wind(model),
                   [EACH_GUIDE_JET] = model_has_guide_jet(model),
+                  [EACH_DEFLECTOR] = model_has_launcher(model) && tubes->deflector.present,
                   [EACH_PARACHUTE] = canopies ? 0 : rocket->parachute_count,
                   [EACH_CANOPY] = canopies ? rocket->parachute_count : 0,
                   [EACH_LINE_PLACE] = rocket->line.present ? LD_LINE_PLACES : 0,

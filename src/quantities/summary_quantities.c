@@ -396,7 +396,7 @@ static const quantity_group run_groups[] = {
     {.title = "works of a vehicle", .each = EACH_VEHICLE, .launch = true, QUANTITY_ROWS(vehicle_works)},
     {.title = "work of the line on the rocket", .each = EACH_LINE, .launch = true, QUANTITY_ROWS(line_works)},
     {.title = "work of the wind on the guide", .each = EACH_GUIDE_WIND, .launch = true, QUANTITY_ROWS(guide_wind_works)},
-    {.title = "work of the jet on the guide", .each = EACH_GUIDE_JET, .launch = true, QUANTITY_ROWS(guide_jet_works)},
+    {.title = "work of the jet on guide and deflector", .each = EACH_GUIDE_JET, .launch = true, QUANTITY_ROWS(guide_jet_works)},
     {.title = "works of a multibody base", .each = EACH_MULTIBODY, .launch = true, QUANTITY_ROWS(multibody_works)},
     {.title = "works of its wheels", .each = EACH_ROLLING, .launch = true, QUANTITY_ROWS(rolling_works)},
     {.title = "work of jets", .each = EACH_JET, .launch = true, QUANTITY_ROWS(jet_works)},

@@ -30,14 +30,30 @@ static v3 tip_of(const launching_system *launching, const double *y)
     return v3_axpy(v3_from(y + at->r), launching->tube.flexible.length, axis);
 }
 
+// Of the rocket that is in the guide.
+static jet_source source_in_guide(const launch_state *self, const double *y, double thrust)
+{
+    const launching_system *launching = &self->launcher.launching;
+    v3 nozzle = launching_rocket_point(launching, y, v3_zero());
+    v3 ahead = launching_rocket_point(launching, y, v3_make(1, 0, 0));
+    return (jet_source){nozzle, v3_sub(ahead, nozzle), {thrust, self->motor->greatest}};
+}
+
 static void find_jet(const launch_state *self, double t, const double *y, launching_input *input)
 {
     const launching_system *launching = &self->launcher.launching;
+    const ld_tubes *tubes = model_tubes(self->model);
+    const ld_plume *plume = &self->rocket->motor.plume;
+    bool inside = self->phase.rocket;
     int tube = model_firing(self->model, self->launcher.base.tube)->tube;
+    jet_source from =
+        inside ? source_in_guide(self, y, input->thrust) : jets_source(&self->jets, t, tube);
     m3 A = q_matrix(q_from(y + launching->layout.quaternion));
-    jet_load load = jets_on_guide(&self->jets, t, tip_of(launching, y), A, tube);
-    input->guide_jet = load.force;
-    memcpy(input->guide_jet_at, load.at, sizeof load.at);
+    if (!inside)
+        input->jet_face = jet_on_face(tubes, plume, &from, tip_of(launching, y), A);
+    if (tubes->deflector.present)
+        input->deflector =
+            jet_on_deflector(tubes, plume, &from, v3_from(y + launching->layout.r), A);
 }
 
 // The air about the guide, its turbulence that at the tip of the undeformed one.
@@ -73,8 +89,8 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     input->load = disturbed ? &disturbed->input.launching : NULL;
     input->record = NULL;
     input->about.at = NULL;
-    input->guide_jet = 0;
-    if (self->jets.count)
+    input->jet_face.hit = input->deflector.hit = 0;
+    if (self->jets.count || model_tubes(self->model)->deflector.present)
         find_jet(self, t, y, input);
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);

@@ -278,6 +278,9 @@ static const quantity blown[] = {
 static const quantity on_its_front[] = {
     {"guide_jet.force", "N", "force of the jet on the guide's front end, backwards", AT(out.launching.guide_jet)},
 };
+static const quantity on_its_deflector[] = {
+    {"deflector.jet", "N", "force of the jet that hits the deflector", AT(out.launching.deflector)},
+};
 #define LAUNCHING(place, name, is) {"work." name, "J", is, AT(energy.work[place])},
 #define BASE_WORK(place, name, is) LAUNCHING(POWER_COUNT + place, name, is)
 #define MARCHING(place, name, is) BASE_WORK(VEHICLE_BODY_POWERS + place, name, is)
@@ -320,6 +323,7 @@ static const quantity_group groups[] = {
     {.title = "line that the rocket pulls", .each = EACH_LINE, ROCKET, QUANTITY_ROWS(drawn)},
     {.title = "wind on the guide", .each = EACH_GUIDE_WIND, QUANTITY_ROWS(blown)},
     {.title = "jet on the guide", .each = EACH_GUIDE_JET, QUANTITY_ROWS(on_its_front)},
+    {.title = "jet on the deflector", .each = EACH_DEFLECTOR, QUANTITY_ROWS(on_its_deflector)},
     {.title = "each slide on which the tube recoils", .each = EACH_SLIDE, QUANTITY_ROWS(slides)},
     {.title = "section loads at a station", .each = EACH_STATION, QUANTITY_ROWS(stations)},
     {.title = "section at a station", .each = EACH_STATION, QUANTITY_ROWS(sections)},
@@ -336,7 +340,7 @@ static const quantity_group balances[] = {
     {.title = "work of recoil slides", .each = EACH_SLIDE_WORK, QUANTITY_ROWS(recoil_works)},
     {.title = "work of the line on the rocket", .each = EACH_LINE, QUANTITY_ROWS(line_works)},
     {.title = "work of the wind on the guide", .each = EACH_GUIDE_WIND, QUANTITY_ROWS(guide_wind_works)},
-    {.title = "work of the jet on the guide", .each = EACH_GUIDE_JET, QUANTITY_ROWS(guide_jet_works)},
+    {.title = "work of the jet on guide and deflector", .each = EACH_GUIDE_JET, QUANTITY_ROWS(guide_jet_works)},
     {.title = "works of a vehicle", .each = EACH_VEHICLE, QUANTITY_ROWS(vehicle_works)},
     {.title = "works of a multibody base", .each = EACH_MULTIBODY, QUANTITY_ROWS(multibody_works)},
     {.title = "works of its wheels", .each = EACH_ROLLING, QUANTITY_ROWS(rolling_works)},

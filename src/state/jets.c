@@ -7,6 +7,7 @@
 #include "integration/dormand_prince.h"
 #include "model/blocks/firing.h"
 #include "model/blocks/platform.h"
+#include "model/blocks/rocket.h"
 #include "model/parts.h"
 #include "systems/mechanism/carried_tubes.h"
 
@@ -14,7 +15,6 @@
 // table's end it continues [m]: so much may a mouth leave the way that it had when its rocket left.
 static const double spacing = 1e-3, margin = 100;
 enum { MOST_PLACES = 20000 };
-static const double pi = 3.14159265358979323846;
 
 void jets_free(jets *self)
 {
@@ -134,13 +134,12 @@ ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *
                  .piece = phase->piece,
                  .tube = tube,
                  .mouth = *mouth};
-    for (size_t k = 0; k < flight->motor.corner_count; k++)
-        one->greatest = fmax(one->greatest, flight->motor.thrust[k]);
     course flown = {flight, *phase};
     const ld_tubes *tubes = model_tubes(self->model);
     double reach = fmax(reach_of(&model_platform(self->model)->jet), reach_of(&tubes->jet));
-    if (tubes->jet_face.present)
-        reach = fmax(reach, tubes->jet_face.reach);
+    const ld_plume *plume = &model_rocket(self->model)->motor.plume;
+    if (plume->present)
+        reach = fmax(reach, plume->reach);
     return find_course(one, &flown, reach, state, error);
 }
 
@@ -198,70 +197,55 @@ static double force_at(const jet *self, double t, const ld_table *table, double 
     if (is_gone(self, t))
         return 0;
     double full = scale * table_at(table, v3_norm(v3_sub(place_at(self, t), place)));
-    return full * thrust_at(self, t) / self->greatest;
+    return full * thrust_at(self, t) / self->flight->motor.greatest;
 }
 
-// What a circle bears of a jet: its share, and the moment of that about the circle's centre [m],
-// towards the jet's axis.
-typedef struct borne {
-    double share, moment;
-} borne;
-
-// Of radius a, the jet's axis `off` its centre, the jet's radius b. Gauss's theorem makes both
-// integrals over the rim (model.md, section 5); the trapezoidal rule is exact there to rounding for
-// a up to 8 b.
-static borne borne_by_circle(double a, double off, double b)
+jet_source jets_source(const jets *self, double t, int launching)
 {
-    enum { STEPS = 48 }; // of half the rim
-    borne sum = {0};
-    for (int k = 0; k <= STEPS; k++) {
-        double c = cos(pi * k / STEPS), weight = (k % STEPS ? 1.0 : 0.5) / STEPS;
-        double x = (a * a + off * off - 2 * a * off * c) / (b * b);
-        double mean = x > 0 ? -expm1(-x) / x : 1;
-        sum.share += weight * mean * a * (a - off * c) / (b * b);
-        sum.moment -= weight * exp(-x) * a * c;
+    for (int i = 0; i < self->count; i++) {
+        const jet *one = &self->of[i];
+        if (one->tube == launching && !is_gone(one, t))
+            return (jet_source){place_at(one, t),
+                                axis_at(one, t),
+                                {thrust_at(one, t), one->flight->motor.greatest}};
     }
-    sum.moment += off * sum.share;
-    return sum;
+    return (jet_source){0};
 }
 
-jet_load jet_on_face(const ld_jet_face *face, double thrust, v3 r, v3 axis)
+static guide_push push_on_ring(const ld_plume *plume, const jet_source *from, plume_ring ring,
+                               v3 center, m3 A)
 {
-    if (axis.x < 0.1) // the jet blows past
-        return (jet_load){0};
-    double distance = r.x / axis.x;
-    v3 hit = v3_axpy(r, -distance, axis);
-    distance = fmax(distance, 0);
-    double off = hypot(hit.y, hit.z), b = face->radius + face->spread * distance;
-    borne outer = borne_by_circle(face->outer, off, b);
-    borne inner = borne_by_circle(face->inner, off, b);
-    double share = outer.share - inner.share, moment = outer.moment - inner.moment;
-    if (share < 1e-12 || distance >= face->reach)
-        return (jet_load){0};
-    double fades = fmin(10 * (1 - distance / face->reach), 1);
-    double arm = off > 0 ? moment / (share * off) : 0;
-    return (jet_load){fades * share * thrust, {arm * hit.y, arm * hit.z}};
+    v3 r = m3_apply_transposed(A, v3_sub(from->r, center));
+    v3 axis = m3_apply_transposed(A, from->axis);
+    plume_load load = plume_on_ring(plume, ring, from->thrust, r, axis);
+    return (guide_push){.hit = load.force, .at = {0, load.at[0], load.at[1]}};
 }
 
-static jet_load on_guide(const jet *self, double t, const ld_tubes *tubes, v3 tip, m3 A)
+guide_push jet_on_face(const ld_tubes *tubes, const ld_plume *plume, const jet_source *from, v3 tip,
+                       m3 A)
 {
-    const double scale = tubes->jet_scale;
-    if (!tubes->jet_face.present)
-        return (jet_load){.force = force_at(self, t, &tubes->jet, scale, tip)};
-    if (is_gone(self, t))
-        return (jet_load){0};
-    v3 r = m3_apply_transposed(A, v3_sub(place_at(self, t), tip));
-    v3 axis = m3_apply_transposed(A, axis_at(self, t));
-    return jet_on_face(&tubes->jet_face, scale * thrust_at(self, t), r, axis);
+    const ld_jet_face *face = &tubes->jet_face;
+    guide_push push = {0};
+    if (face->present)
+        push = push_on_ring(plume, from, (plume_ring){face->inner, face->outer}, tip, A);
+    else if (from->thrust.now > 0)
+        push.hit = table_at(&tubes->jet, v3_norm(v3_sub(from->r, tip))) * from->thrust.now /
+                   from->thrust.greatest;
+    push.hit *= tubes->jet_scale;
+    push.force = v3_make(-push.hit, 0, 0);
+    return push;
 }
 
-jet_load jets_on_guide(const jets *self, double t, v3 tip, m3 A, int launching)
+guide_push jet_on_deflector(const ld_tubes *tubes, const ld_plume *plume, const jet_source *from,
+                            v3 rear, m3 A)
 {
-    const ld_tubes *tubes = model_tubes(self->model);
-    for (int i = 0; i < self->count; i++)
-        if (self->of[i].tube == launching)
-            return on_guide(&self->of[i], t, tubes, tip, A);
-    return (jet_load){0};
+    const ld_deflector *self = &tubes->deflector;
+    v3 center = v3_axpy(rear, self->at, m3_column(A, 0));
+    guide_push push = push_on_ring(plume, from, (plume_ring){self->inner, self->outer}, center, A);
+    push.hit *= tubes->jet_scale;
+    push.force = v3_scale(push.hit, v3_from(self->push));
+    push.at.x = self->at;
+    return push;
 }
 
 jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching)

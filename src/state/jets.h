@@ -4,6 +4,8 @@
 #ifndef LD_STATE_JETS_H
 #define LD_STATE_JETS_H
 
+#include "elements/exchange.h"
+#include "elements/plume.h"
 #include "systems/bases/vehicle.h"
 #include "systems/flight/flight.h"
 
@@ -19,17 +21,16 @@ typedef struct jet_pose {
     v3 r, v, axis;
 } jet_pose;
 
-// On the front end of a guide: a force along its axis backwards, at y and z from that.
-typedef struct jet_load {
-    double force; // [N]
-    double at[2]; // [m]
-} jet_load;
+// Where a rocket's jet comes from: O1, and its axis, in I. No thrust: there is none.
+typedef struct jet_source {
+    v3 r, axis;
+    plume_thrust thrust;
+} jet_source;
 
 // One rocket that has left.
 typedef struct jet {
     const flight_system *flight;
     double t_ignition;
-    double greatest; // [N] of its thrust
     int piece;       // of its thrust curve
     int tube;        // that it left, number from 1
     jet_place mouth; // of that tube as the rocket left
@@ -57,13 +58,15 @@ ld_status jets_add(jets *self, const flight_system *flight, const flight_phase *
 // Their wrench at t, T being `tube` and that of the tube `launching`.
 jet_wrench jets_at(const jets *self, double t, const base_frame *tube, int launching);
 
-// The load of a round jet on a ring, in axes of the ring from its centre, x normal to it: `thrust`
-// [N], `r` [m] where the nozzle is, `axis` that of the rocket, of length 1 (model.md, section 5).
-jet_load jet_on_face(const ld_jet_face *face, double thrust, v3 r, v3 axis);
+// The jet of the rocket that has left the tube `launching`.
+jet_source jets_source(const jets *self, double t, int launching);
 
-// The load on the front end of the tube `launching`, at `tip` of I, with axes A there: that of the
-// rocket that has left it.
-jet_load jets_on_guide(const jets *self, double t, v3 tip, m3 A, int launching);
+// On a guide without deflection, A its axes (model.md, section 5): on its front end about `tip`, of
+// a rocket that has left; on its deflector, its rear end at `rear`.
+guide_push jet_on_face(const ld_tubes *tubes, const ld_plume *plume, const jet_source *from, v3 tip,
+                       m3 A);
+guide_push jet_on_deflector(const ld_tubes *tubes, const ld_plume *plume, const jet_source *from,
+                            v3 rear, m3 A);
 
 // The first corner of a thrust curve that lies ahead.
 double jets_next_corner(const jets *self);

@@ -1383,16 +1383,29 @@ static void add_guide_wind(equations *eq, const jet_scene *scene, const dense_co
     turn_back(output->guide_wind, scene->state->A_R[0], sum);
 }
 
-static void add_guide_jet(equations *eq, const jet_scene *scene, const dense_conditions *on)
+// What is fixed to the section at x.
+static void add_push(equations *eq, const jet_scene *scene, double x, const double at[3],
+                     const double force[3])
 {
-    jet_frame tip = tube_section_in_I(scene, scene->dense->model->tubes.length);
-    const double force = on->guide_jet, at[3] = {0, on->guide_jet_at[0], on->guide_jet_at[1]};
-    jet3 local = jet3_constant(at), point = point_in(&tip, &local);
-    double f[3];
+    jet_frame section = tube_section_in_I(scene, x);
+    jet3 local = jet3_constant(at), point = point_in(&section, &local);
+    double f[3] = {0};
     for (int i = 0; i < 3; i++)
-        f[i] = -force * tip.A.c[i][0].v;
+        for (int j = 0; j < 3; j++)
+            f[i] += section.A.c[i][j].v * force[j];
     add_force(eq->h, &point, f);
     add_force(eq->other, &point, f);
+}
+
+// The deflector is on the tail, where it is behind the rear end.
+static void add_guide_jet(equations *eq, const jet_scene *scene, const dense_conditions *on)
+{
+    const double *behind = on->deflector_at;
+    add_push(eq, scene, scene->dense->model->tubes.length, on->jet_face_at, on->jet_face);
+    if (behind[0] < 0)
+        add_push(eq, scene, 0, behind, on->deflector);
+    else
+        add_push(eq, scene, behind[0], (double[]){0, behind[1], behind[2]}, on->deflector);
 }
 
 // On an open guide: the air of the flight's own equations (support/dense_flight.c) on the rocket.

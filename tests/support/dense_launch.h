@@ -84,12 +84,12 @@ typedef struct dense_conditions {
     bool passed[LD_MAX_ADAPTORS];        // adaptor has left the tube
     double touch_speed[LD_MAX_ADAPTORS]; // [m/s] of Lankarani-Nikravesh; 0: the reference speed
     double surface_touch_speed[DENSE_MAX_SURFACES]; // the same, where the guide has surfaces
-    double breech, breech_speed;        // [m] station of the breech; [m/s] touched at, likewise
-    double air[3], density;             // [m/s] velocity of the air, in I; [kg/m3]
-    double sound;                       // [m/s] speed of sound
-    double guide_jet;                   // [N] on the guide's front end, backwards
-    double guide_jet_at[2];             // [m] y and z there from the axis
-    bool power;                         // the thrust table has not ended
+    double breech, breech_speed;          // [m] station of the breech; [m/s] touched at, likewise
+    double air[3], density;               // [m/s] velocity of the air, in I; [kg/m3]
+    double sound;                         // [m/s] speed of sound
+    double jet_face[3], jet_face_at[3];   // [N], [m] in axes of the section at the tip
+    double deflector[3], deflector_at[3]; // likewise, behind the rear end or on the guide
+    bool power;                           // the thrust table has not ended
     int slide_stop[LD_MAX_SUPPORTS][2]; // front and rear stop of a support's slide: 0 as its travel
                                         // says, 1 pushes, -1 does not (held by an integrator)
 } dense_conditions;

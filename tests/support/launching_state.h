@@ -158,8 +158,10 @@ static inline void copy_to_dense(const launching_system *system, launching_case 
     conditions->density = c->input.air.density;
     conditions->sound = c->input.air.speed_of_sound;
     conditions->power = c->input.power;
-    conditions->guide_jet = c->input.guide_jet;
-    memcpy(conditions->guide_jet_at, c->input.guide_jet_at, sizeof conditions->guide_jet_at);
+    v3_store(conditions->jet_face, c->input.jet_face.force);
+    v3_store(conditions->jet_face_at, c->input.jet_face.at);
+    v3_store(conditions->deflector, c->input.deflector.force);
+    v3_store(conditions->deflector_at, c->input.deflector.at);
     conditions->breech_speed = c->phase.breech_speed;
 }
 

@@ -78,8 +78,9 @@ static void fill_rocket(ld_rocket *rocket)
         snprintf(rocket->adaptor[i].name, LD_MAX_NAME, "%s", name[i]);
         rocket->adaptor[i].at = at[i];
         rocket->adaptor[i].clearance = clearance[i];
-        rocket->adaptor[i].leaves_at = NAN;
     }
+    for (int i = 0; i < LD_MAX_ADAPTORS; i++)
+        rocket->adaptor[i].leaves_at = NAN;
     rocket->contact = (ld_contact){.law = LD_CONTACT_HUNT_CROSSLEY,
                                    .stiffness = 5e7,
                                    .exponent = 1,

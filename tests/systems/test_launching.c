@@ -119,9 +119,11 @@ static void blow_on_guide(uint64_t *seed, launching_case *c)
     v3 gust = draw_v3(seed, 5);
     air.v = v3_sub(air.v, gust);
     c->input.about.turbulence = gust;
-    c->input.guide_jet = 500 * (1 + draw(seed));
-    c->input.guide_jet_at[0] = 3e-5 * c->input.guide_jet;
-    c->input.guide_jet_at[1] = -5e-5 * c->input.guide_jet;
+    double hit = 500 * (1 + draw(seed));
+    c->input.jet_face = (guide_push){hit, {-hit, 0, 0}, {0, 3e-5 * hit, -5e-5 * hit}};
+    c->input.deflector = (guide_push){2 * hit,
+                                      {-1.1 * hit, 0.3 * hit, -0.6 * hit},
+                                      {1e-3 * (hit - 500), -4e-5 * hit, 7e-5 * hit}};
 }
 
 static void check_agreement(const ld_model *model, evaluator evaluate, int count, const char *name)

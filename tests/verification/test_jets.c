@@ -169,7 +169,6 @@ static void impulse_on_a_free_vehicle(void **state)
     jet *one = &self->jets.of[0];
     *one = (jet){.flight = simulation_flight(launch.simulation, 0),
                  .t_ignition = -0.2,
-                 .greatest = 15e3,
                  .piece = 1,
                  .tube = 8,
                  .count = PLACES,

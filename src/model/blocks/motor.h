@@ -32,6 +32,19 @@ typedef struct ld_side_force {
     ld_side_noise noise;
 } ld_side_force;
 
+/// How the jet's pressure is given.
+typedef enum ld_plume_form { LD_PLUME_ROUND, LD_PLUME_TABLE } ld_plume_form;
+
+/// The jet of all motors on rings of the guide.
+typedef struct ld_plume {
+    bool present;
+    ld_plume_form form;
+    double radius; ///< [m] of the round jet at the nozzle, where the pressure is 1/e of the axis'
+    double spread; ///< [-] growth of that radius over the distance
+    ld_table pressure; ///< distance, radius [m], pressure [Pa] at the greatest thrust; linear
+    double reach;      ///< [m] distance at which the jet ends
+} ld_plume;
+
 typedef struct ld_motor {
     bool absent;            ///< no motor (flight alone, or a launch by pressure)
     ld_table thrust;        ///< t [s], T [N]; linear between, 0 after the last; a double time jumps
@@ -50,6 +63,7 @@ typedef struct ld_motor {
     ld_side_force side_force;
     ld_table nozzle; ///< t [s], eps_y, eps_z [-], y, z [m] besides `misalignment` and `at`; linear,
                      ///< constant outside
+    ld_plume plume;
 } ld_motor;
 
 /// A motor besides: `rocket.further_motors`.

@@ -91,15 +91,19 @@ typedef struct ld_initial_shape {
     ld_rail_joint joint[LD_MAX_RAIL_JOINTS];
 } ld_initial_shape;
 
-/// Ring of a guide's front end in a round jet of Gaussian pressure that bears the thrust at any
-/// distance.
+/// Ring of a guide's front end in the jet of `rocket.motor.plume`.
 typedef struct ld_jet_face {
     bool present;
     double inner, outer; ///< [m] radii of the ring
-    double radius;       ///< [m] of the jet at the nozzle, where the pressure is 1/e of the axis'
-    double spread;       ///< [-] growth of that radius over the distance
-    double reach;        ///< [m] distance at which the jet ends
 } ld_jet_face;
+
+/// Ring on the guide behind the rocket that turns the jet aside.
+typedef struct ld_deflector {
+    bool present;
+    double at;           ///< [m] x of its centre from the guide's rear end
+    double inner, outer; ///< [m] radii, across the axis
+    double push[3];      ///< [-] force over that of the jet that hits, in axes of the guide there
+} ld_deflector;
 
 typedef struct ld_tubes {
     ld_layout layout;
@@ -125,8 +129,9 @@ typedef struct ld_tubes {
     int wind_drag_count;
     ld_wind_drag wind_drag[LD_MAX_WIND_DRAGS];
     ld_table jet; ///< distance from the tip [m], force of a jet on the front end [N]; empty: none
-    double jet_scale;     ///< [-] factor on the force
+    double jet_scale;     ///< [-] factor on the force, and on the others' of jets
     ld_jet_face jet_face; ///< instead of `jet`
+    ld_deflector deflector;
 } ld_tubes;
 
 #endif

@@ -923,20 +923,25 @@ static const field_row wind_drag_fields[] = {
     {0}};
 static const field_block wind_drag_block = {.fields = wind_drag_fields};
 
-static const field_row jet_face_fields[] = {
-    {"inner_radius", NUMBER(ld_jet_face, inner, "m"), FROM_TO(0, 100), DEFAULT(0),
-     .doc = "of the ring's hole"},
-    {"outer_radius", NUMBER(ld_jet_face, outer, "m"), ABOVE_TO(0, 100), REQUIRED,
-     .doc = "of the ring, up to 8 times `radius`"},
-    {"radius", NUMBER(ld_jet_face, radius, "m"), ABOVE_TO(0, 100), REQUIRED,
-     .doc = "of the jet at the nozzle, where its pressure is 1/e of that on its axis"},
-    {"spread", NUMBER(ld_jet_face, spread, ""), FROM_TO(0, 1), REQUIRED,
-     .doc = "growth of that radius over the distance"},
-    {"ends_at", NUMBER(ld_jet_face, reach, "m"), ABOVE_TO(0, 1000), REQUIRED,
-     .doc = "distance; over its last tenth the jet fades"},
-    {0}};
+static const field_row jet_face_fields[] = {{"inner_radius", NUMBER(ld_jet_face, inner, "m"),
+                                             FROM_TO(0, 100), DEFAULT(0),
+                                             .doc = "of the ring's hole"},
+                                            {"outer_radius", NUMBER(ld_jet_face, outer, "m"),
+                                             ABOVE_TO(0, 100), REQUIRED, .doc = "of the ring"},
+                                            {0}};
 static const field_block jet_face_block = {.fields = jet_face_fields};
 static const field_word jet_face_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row deflector_fields[] = {
+    {"at", NUMBER(ld_deflector, at, "m"), FROM_TO(-100, 100), REQUIRED,
+     .doc = "x of its centre from the rear end of tube or rail, behind the nozzle at the start"},
+    {"inner_radius", NUMBER(ld_deflector, inner, "m"), FROM_TO(0, 100), DEFAULT(0),
+     .doc = "of its hole, seen along the axis"},
+    {"outer_radius", NUMBER(ld_deflector, outer, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .doc = "seen along the axis"},
+    {"push", VECTOR(ld_deflector, push, "", 3), FROM_TO(-2, 2), REQUIRED,
+     .doc = "force over that of the jet that hits it, in axes of tube or rail"},
+    {0}};
+static const field_block deflector_block = {.fields = deflector_fields};
 
 static const field_row tubes_fields[] = {
     {"on", WORD(ld_tubes, on), .initial_doc = "none",
@@ -984,10 +989,13 @@ static const field_row tubes_fields[] = {
          "force of the departed rocket's jet on the front end of its tube or rail, backwards, at "
          "greatest thrust; over the distance from tip to rear adaptor, linear"},
     {"jet_scale", NUMBER(ld_tubes, jet_scale, ""), FROM_TO(0, 1000), DEFAULT(1),
-     .doc = "factor on that force"},
+     .doc = "factor on that force, and on those of `jet_face` and `deflector`"},
     {"jet_face", BLOCK(ld_tubes, jet_face, jet_face_block), .silent = true, .initial_doc = "none",
      SWITCH(ld_tubes, jet_face.present, jet_face_words), .other_is_bool = true,
-     .doc = "instead of `jet`: ring about the tip in a round jet of the rocket's thrust"},
+     .doc = "instead of `jet`: ring about the tip in the jet of `rocket.motor.plume`"},
+    {"deflector", BLOCK(ld_tubes, deflector, deflector_block), .silent = true,
+     .initial_doc = "none", SWITCH(ld_tubes, deflector.present, jet_face_words),
+     .other_is_bool = true, .doc = "ring behind the rocket in the same jet, from ignition on"},
     {0}};
 const field_block tubes_block = {.fields = tubes_fields};
 
@@ -1170,6 +1178,31 @@ static const field_row side_force_fields[] = {
     {0}};
 static const field_block side_force_block = {.fields = side_force_fields};
 static const field_word side_force_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_row plume_columns[] = {
+    {"distance", .unit = "m", FROM_TO(0, 1000)},
+    {"radius", .unit = "m", FROM_TO(0, 100)},
+    {"pressure", .unit = "Pa", NOT_NEGATIVE},
+};
+static const table_format plume_table = {TABLE_CSV, 3, plume_columns, NULL};
+static const field_word plume_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
+static const field_word plume_forms[] = {
+    {"a width", LD_PLUME_ROUND}, {"pressures", LD_PLUME_TABLE}, {NULL, 0}};
+static const field_row plume_fields[] = {
+    {"radius", NUMBER(ld_plume, radius, "m"), ABOVE_TO(0, 100), REQUIRED,
+     .forms = FORM(LD_PLUME_ROUND),
+     .doc = "of the jet at the nozzle, where its pressure is 1/e of that on its axis"},
+    {"spread", NUMBER(ld_plume, spread, ""), FROM_TO(0, 1), REQUIRED, .forms = FORM(LD_PLUME_ROUND),
+     .doc = "growth of that radius over the distance"},
+    {"pressure", TABLE(ld_plume, pressure, plume_table), .required = true,
+     .forms = FORM(LD_PLUME_TABLE),
+     .doc = "at greatest thrust, over distance behind the nozzle and radius; linear in both"},
+    {"ends_at", NUMBER(ld_plume, reach, "m"), ABOVE_TO(0, 1000), REQUIRED,
+     .doc = "distance; over its last tenth the jet fades"},
+    {0}};
+static const field_block plume_block = {.fields = plume_fields,
+                                        .form = plume_forms,
+                                        .form_offset = offsetof(ld_plume, form),
+                                        .form_from_keys = true};
 static const field_word jet_damping_words[] = {
     {"no", LD_JET_DAMPING_NO}, {"yes", LD_JET_DAMPING_YES}, {NULL, 0}};
 static const field_row motor_fields[] = {
@@ -1206,6 +1239,9 @@ static const field_row motor_fields[] = {
     {"nozzle", TABLE(ld_motor, nozzle, nozzle_table), .initial_doc = "none",
      .doc = "moves over time from ignition, added to `misalignment` and `at`; linear, constant "
             "outside"},
+    {"plume", BLOCK(ld_motor, plume, plume_block), .silent = true, .initial_doc = "none",
+     SWITCH(ld_motor, plume.present, plume_words), .other_is_bool = true,
+     .doc = "jet of all motors on `tubes.jet_face` and `tubes.deflector`"},
     {0}};
 static const field_block motor_block = {.fields = motor_fields};
 static const field_row further_motor_fields[] = {

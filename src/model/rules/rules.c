@@ -717,8 +717,11 @@ static void pressure_rules(const rule_set *rules)
     if (model->rocket.motor.absent && model_has_jet(model))
         report_broken(rules, "platform.jet", 0, "requires a motor");
     if (model->rocket.motor.absent && model_has_guide_jet(model))
-        report_broken(rules, model->tubes.jet_face.present ? "tubes.jet_face" : "tubes.jet", 0,
-                      "requires a motor");
+        report_broken(rules,
+                      model->tubes.jet_face.present    ? "tubes.jet_face"
+                      : model->tubes.deflector.present ? "tubes.deflector"
+                                                       : "tubes.jet",
+                      0, "requires a motor");
     if (!pressure->present)
         return;
     if (model_has_surfaces(model))

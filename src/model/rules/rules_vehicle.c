@@ -198,20 +198,73 @@ static void jet_rules(const rule_set *rules, const char *name, const ld_table *j
         report_broken(rules, name, 0, "needs at least two rows");
 }
 
-static void jet_face_rules(const rule_set *rules)
+// Each distance has its radii from 0 m on and ends at 0 Pa.
+static void plume_table_rules(const rule_set *rules, const ld_plume *plume)
+{
+    const char *row = "rocket.motor.plume.pressure.#", *all = "rocket.motor.plume.pressure";
+    const ld_table *table = &plume->pressure;
+    for (size_t k = 0; k < table->rows; k++) {
+        const double *now = table->data + 3 * k;
+        bool first = k == 0 || now[0] != now[-3];
+        bool last = k + 1 == table->rows || now[0] != now[3];
+        if (k > 0 && now[0] < now[-3])
+            report_broken(rules, row, (int)k + 1, "the distance %g m does not come after %g m",
+                          now[0], now[-3]);
+        else if (first && now[1] != 0)
+            report_broken(rules, row, (int)k + 1,
+                          "the first radius of a distance must be 0 m, not %g m", now[1]);
+        else if (!first && now[1] <= now[-2])
+            report_broken(rules, row, (int)k + 1, "the radius %g m does not come after %g m",
+                          now[1], now[-2]);
+        if (first && last)
+            report_broken(rules, row, (int)k + 1, "the distance %g m needs at least two radii",
+                          now[0]);
+        else if (last && now[2] != 0)
+            report_broken(rules, row, (int)k + 1,
+                          "the last pressure of a distance must be 0 Pa, not %g Pa: the jet ends "
+                          "there",
+                          now[2]);
+    }
+    if (table->data[0] > 0)
+        report_broken(rules, all, 0, "the first distance must be 0 m, not %g m", table->data[0]);
+    double end = table->data[3 * (table->rows - 1)];
+    if (end < plume->reach)
+        report_broken(rules, all, 0, "ends at %g m; it must reach ends_at, %g m", end,
+                      plume->reach);
+}
+
+static void ring_rules(const rule_set *rules, const char *name, double inner, double outer)
+{
+    const ld_plume *plume = &rules->model->rocket.motor.plume;
+    char path[64];
+    snprintf(path, sizeof path, "%s.outer_radius", name);
+    if (!plume->present)
+        report_broken(rules, name, 0, "requires rocket.motor.plume");
+    if (inner >= outer)
+        report_broken(rules, path, 0, "must be more than inner_radius, %g m", inner);
+    if (plume->present && plume->form == LD_PLUME_ROUND && outer > 8 * plume->radius)
+        report_broken(rules, path, 0,
+                      "must be at most 8 times rocket.motor.plume.radius, which makes %g m",
+                      8 * plume->radius);
+}
+
+static void guide_jet_rules(const rule_set *rules)
 {
     const ld_tubes *tubes = &rules->model->tubes;
-    const ld_jet_face *face = &tubes->jet_face;
-    if (!face->present)
-        return;
-    if (tubes->jet.rows > 0)
+    const ld_rocket *rocket = &rules->model->rocket;
+    const ld_plume *plume = &rocket->motor.plume;
+    if (tubes->jet_face.present && tubes->jet.rows > 0)
         report_broken(rules, "tubes.jet_face", 0, "not with tubes.jet");
-    if (face->inner >= face->outer)
-        report_broken(rules, "tubes.jet_face.outer_radius", 0,
-                      "must be more than inner_radius, %g m", face->inner);
-    if (face->outer > 8 * face->radius)
-        report_broken(rules, "tubes.jet_face.outer_radius", 0,
-                      "must be at most 8 times radius, which makes %g m", 8 * face->radius);
+    if (tubes->jet_face.present)
+        ring_rules(rules, "tubes.jet_face", tubes->jet_face.inner, tubes->jet_face.outer);
+    if (tubes->deflector.present)
+        ring_rules(rules, "tubes.deflector", tubes->deflector.inner, tubes->deflector.outer);
+    if (tubes->deflector.present && tubes->deflector.at > rocket->start_at)
+        report_broken(rules, "tubes.deflector.at", 0,
+                      "must be behind the rear adaptor at the start, at most %g m",
+                      rocket->start_at);
+    if (plume->present && plume->form == LD_PLUME_TABLE)
+        plume_table_rules(rules, plume);
 }
 
 static void turret_rules(const rule_set *rules, const char *name, const ld_turret *turret,
@@ -232,7 +285,7 @@ void vehicle_rules(const rule_set *rules)
     const ld_platform *platform = &rules->model->platform;
     jet_rules(rules, "platform.jet", &platform->jet);
     jet_rules(rules, "tubes.jet", &rules->model->tubes.jet);
-    jet_face_rules(rules);
+    guide_jet_rules(rules);
     bool wheels = model_has_multibody(rules->model) && rules->model->base.vehicle.wheel_count > 0;
     if (!model_has_vehicle(rules->model) && !wheels)
         return;

@@ -55,6 +55,30 @@ static plausible_pair negative_thrust(const plausible_entry *at)
     return plausible_nothing();
 }
 
+// Of the jet's pressures over all radii at a distance, that which differs most from the thrust.
+static plausible_pair force_of_pressures(const plausible_entry *at)
+{
+    const ld_table *table = &at->model->rocket.motor.plume.pressure;
+    double thrust = estimate_peak_thrust(at), force = 0, worst = 0;
+    plausible_pair pair = plausible_nothing();
+    for (size_t k = 1; k < table->rows; k++) {
+        const double *a = &table->data[3 * (k - 1)], *b = a + 3;
+        if (a[0] != b[0]) {
+            force = 0;
+            continue;
+        }
+        // p r over the ring, p linear
+        force += PI / 3 * (b[1] - a[1]) * (a[2] * (2 * a[1] + b[1]) + b[2] * (a[1] + 2 * b[1]));
+        bool last = k + 1 == table->rows || b[3] != b[0];
+        if (last && !(fabs(log(force / thrust)) <= worst)) {
+            worst = fabs(log(force / thrust));
+            pair = plausible_compare(force, thrust);
+            pair.row = (int)k + 1;
+        }
+    }
+    return pair;
+}
+
 // At which the empty rocket falls below it near sea level.
 static plausible_pair speed_of_descent(const plausible_entry *at)
 {
@@ -226,6 +250,9 @@ const plausible_rule plausible_of_rocket[] = {
      .why = "it is a correction of the curve"},
     {"rocket.motor.delay", .unit = "s", NO_LOW, .high = 5,
      .why = "igniters take milliseconds to a second"},
+    {"rocket.motor.plume.pressure.#", "the force of this distance's pressures", .unit = "N",
+     .other = "the greatest thrust", .low = 0.5, .high = 1.5, .find = force_of_pressures,
+     .why = "a jet keeps the momentum of the thrust"},
     {"rocket.motor.side_force.fluctuation.deviation", "its greatest force", .unit = "N",
      .other = "the greatest thrust", NO_LOW, .high = 0.2, .form = PLAUSIBLE_GREATEST, .column = 1,
      .b = "rocket.motor.side_force.scale", .why = "side forces are a few percent of the thrust"},

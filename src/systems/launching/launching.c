@@ -72,6 +72,7 @@ static bool same_tube(const ld_tubes *a, const ld_tubes *b)
                              key->offset == offsetof(ld_tubes, jet) ||
                              key->offset == offsetof(ld_tubes, jet_scale) ||
                              key->offset == offsetof(ld_tubes, jet_face) ||
+                             key->offset == offsetof(ld_tubes, deflector) ||
                              key->offset == offsetof(ld_tubes, station);
         if (!planes_differ && !field_same(key, a, b))
             return false;

@@ -87,8 +87,9 @@ LD_INLINE launching_outcome evaluate(const evaluation_kind kind, const launching
         load_tip(lanes, input->load, &self->tube, &now);
     if (__builtin_expect(self->wind.count, 0))
         guide_wind_add(&self->wind, &self->tube, &now);
-    out->guide_jet = input->guide_jet;
-    if (__builtin_expect(input->guide_jet != 0, 0))
+    out->guide_jet = input->jet_face.hit;
+    out->deflector = input->deflector.hit;
+    if (__builtin_expect(out->guide_jet != 0 || out->deflector != 0, 0))
         guide_jet_add(&self->tube, &now);
     if (rocket)
         launching_load_rocket(lanes, self, state, &now);

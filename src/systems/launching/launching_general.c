@@ -87,8 +87,9 @@ void launching_uncouple(const launching_system *self, const launching_input *inp
         load_tip(lanes, input->load, &self->tube, now);
     if (self->wind.count)
         guide_wind_add(&self->wind, &self->tube, now);
-    out->guide_jet = input->guide_jet;
-    if (input->guide_jet != 0)
+    out->guide_jet = input->jet_face.hit;
+    out->deflector = input->deflector.hit;
+    if (out->guide_jet != 0 || out->deflector != 0)
         guide_jet_add(&self->tube, now);
     if (phase->rocket)
         launching_load_rocket(lanes, self, state, now);
