@@ -168,7 +168,8 @@ unset multiplot
 
 # ---- wind and jet on the guide ----
 set output "docs/figures/rail-loads.svg"
-set multiplot layout 1,2
+set terminal svg size 1300,420
+set multiplot layout 1,3
 set datafile separator ","
 set xrange [0:0.8]
 set xlabel "time from ignition [s]"
@@ -181,4 +182,9 @@ set ylabel "axial force at 2.21 m [N]"
 set key default bottom right samplen 2
 plot out."/load-calm/history.csv" every 5 using "t [s]":"station.1.axial [N]" with lines lw 1.5 lc 1 title "no jet on the rail", \
      out."/load-jet/history.csv" every 5 using "t [s]":"station.1.axial [N]" with lines lw 1.5 lc 2 title "jet on the rail"
+set ylabel "force on the lower support [kN]"
+set key default top right samplen 2
+plot out."/load-flat/history.csv" every 5 using "t [s]":(column("support.1.force_x [N]")/1e3) with lines lw 1.5 lc 2 title "flat deflector, along", \
+     out."/load-side/history.csv" every 5 using "t [s]":(column("support.1.force_x [N]")/1e3) with lines lw 1.5 lc 3 title "45 deg to the side, along", \
+     out."/load-side/history.csv" every 5 using "t [s]":(column("support.1.force_z [N]")/1e3) with lines lw 1.5 dt 2 lc 3 title "across"
 unset multiplot
