@@ -147,10 +147,11 @@ static void read_csv_row(line_reader *lines, const table_format *format, const d
     int turned = format->columns - 4;
     if (!lines->failed && format->sources & TABLE_QUATERNION && !field_is_unit(row + turned))
         line_refuse(lines, turned, NO_UNIT_QUATERNION);
-    if (!lines->failed && table->rows > 0 &&
-        row[0] <= table->data[(table->rows - 1) * table->columns]) {
-        snprintf(text, sizeof text, "%s is not larger than that of the row before",
-                 format->column[0].name);
+    double before = table->rows > 0 ? table->data[(table->rows - 1) * table->columns] : -INFINITY;
+    bool groups = format->sources & TABLE_GROUPS;
+    if (!lines->failed && (groups ? row[0] < before : row[0] <= before)) {
+        snprintf(text, sizeof text, "%s is %s than that of the row before", format->column[0].name,
+                 groups ? "smaller" : "not larger");
         line_refuse(lines, 0, text);
     }
     if (!lines->failed)

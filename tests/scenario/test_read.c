@@ -390,6 +390,23 @@ static void test_motion_file(void **state)
     model_clear(&m);
 }
 
+// A jet's pressures, whose distance stays over a group of rows.
+static void test_plume_file(void **state)
+{
+    (void)state;
+    const char *const sets[] = {"rocket.motor.plume={ends_at: 2 m, pressure: " LD_BINARY_DIR
+                                "/plume.csv}"};
+    ld_model m = read_with_file("plume.csv",
+                                "distance [m],radius [cm],pressure [kPa]\n0,0,900\n0,6,0\n"
+                                "2,0,200\n2,10,90\n2,30,0\n",
+                                sets, 1);
+    const ld_plume *plume = &m.rocket.motor.plume;
+    assert_true(plume->form == LD_PLUME_TABLE && plume->reach == 2);
+    assert_true(plume->pressure.rows == 5 && plume->pressure.data[2] == 900e3);
+    assert_true(plume->pressure.data[10] == 0.1 && plume->pressure.data[11] == 90e3);
+    model_clear(&m);
+}
+
 // A record of quaternions on a clock in nanoseconds, from a file and as it is printed.
 static void test_record_of_quaternions(void **state)
 {
@@ -631,6 +648,7 @@ int main(void)
         cmocka_unit_test(test_engine_file),
         cmocka_unit_test(test_engine_from_zero),
         cmocka_unit_test(test_motion_file),
+        cmocka_unit_test(test_plume_file),
         cmocka_unit_test(test_record_of_quaternions),
         cmocka_unit_test(test_sea),
         cmocka_unit_test(test_round_trip),

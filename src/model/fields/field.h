@@ -67,6 +67,7 @@ enum table_source {
 enum table_trait {
     TABLE_CLOCK = 64,       // its first column is a clock, whose origin stands apart
     TABLE_QUATERNION = 128, // its last four columns are a unit quaternion
+    TABLE_GROUPS = 512,     // its first column rises from group to group of rows
 };
 
 enum { FIELD_MAX_COLUMNS = 13 };

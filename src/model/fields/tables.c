@@ -1183,7 +1183,7 @@ static const field_row plume_columns[] = {
     {"radius", .unit = "m", FROM_TO(0, 100)},
     {"pressure", .unit = "Pa", NOT_NEGATIVE},
 };
-static const table_format plume_table = {TABLE_CSV, 3, plume_columns, NULL};
+static const table_format plume_table = {TABLE_CSV | TABLE_GROUPS, 3, plume_columns, NULL};
 static const field_word plume_words[] = {{"none", 0}, {"", 1}, {NULL, 0}};
 static const field_word plume_forms[] = {
     {"a width", LD_PLUME_ROUND}, {"pressures", LD_PLUME_TABLE}, {NULL, 0}};

@@ -225,6 +225,8 @@ static void plume_table_rules(const rule_set *rules, const ld_plume *plume)
                           "there",
                           now[2]);
     }
+    if (table->rows == 0)
+        return;
     if (table->data[0] > 0)
         report_broken(rules, all, 0, "the first distance must be 0 m, not %g m", table->data[0]);
     double end = table->data[3 * (table->rows - 1)];
