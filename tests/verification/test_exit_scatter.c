@@ -254,6 +254,50 @@ static void a_rolled_launcher_strains_no_support(void **state)
     reference_model_free(&model);
 }
 
+// A launcher that is rolled and rolls on, its tube displaced on the supports: tube and rocket move
+// with the chassis as one rigid body, to the second order, too.
+static void a_rolling_launcher_moves_as_one(void **state)
+{
+    (void)state;
+    const double share = 4e-3; // [rad], [rad/s], [m]
+    ld_model model;
+    ld_error error;
+    fresh_launch fresh;
+    linear_system system;
+    double change[2 * LD_MAX_STATES], y[LD_MAX_STATES];
+    reference_vehicle(&model, SPEED);
+    fresh_launch_make(&fresh, &model);
+    assert_int_equal(linear_rest(&fresh.state, &system, &error), LD_OK);
+    const launcher_system *launcher = &fresh.state.launcher;
+    const launching_layout *at = &launcher->launching.layout;
+    rigid_roll(&fresh.state, &system, change);
+    change[1] += 1; // [m] up
+    m3 A = q_matrix(q_from(system.y + at->quaternion));
+    v3 center = v3_from(system.y + launcher->base_at + VEHICLE_R), axis = v3_make(1, 0, 0);
+    v3 nozzle = launching_rocket_point(&launcher->launching, system.y, v3_zero());
+    v3 places[2] = {v3_from(system.y + at->r), nozzle};
+    int first[2] = {system.half, system.half + system.tube};
+    for (int i = 0; i < 2; i++) {
+        v3 v = v3_cross(axis, v3_sub(places[i], center));
+        v3_store(change + first[i], m3_apply_transposed(A, v));
+        v3_store(change + first[i] + 3, m3_apply_transposed(A, axis));
+    }
+    change[system.half + system.tube + system.rocket + 3] = 1;
+    linear_displace_all(&fresh.state, &system, change, share, y);
+    A = q_matrix(q_from(y + at->quaternion));
+    v3 along = v3_from(y + launcher->base_at + VEHICLE_V), w = v3_scale(share, axis);
+    nozzle = launching_rocket_point(&launcher->launching, y, v3_zero());
+    center = v3_from(y + launcher->base_at + VEHICLE_R);
+    v3 now[2] = {v3_from(y + at->r), nozzle}, told[2] = {v3_from(y + at->v), v3_from(y + at->V)};
+    for (int i = 0; i < 2; i++) {
+        v3 v = m3_apply_transposed(A, v3_add(along, v3_cross(w, v3_sub(now[i], center))));
+        CHECK_BELOW(i ? "speed of the rocket [m/s]" : "speed of the tube [m/s]",
+                    v3_norm(v3_sub(told[i], v)), 5e-8);
+    }
+    fresh_launch_free(&fresh);
+    reference_model_free(&model);
+}
+
 // All unknowns at once are the unknowns one by one but for what is of the second order.
 static void all_at_once_are_each_to_the_first_order(void **state)
 {
@@ -352,6 +396,7 @@ int main(void)
         cmocka_unit_test(draws_find_what_patterns_find),
         cmocka_unit_test(draws_are_the_runs_on_their_roads),
         cmocka_unit_test(a_rolled_launcher_strains_no_support),
+        cmocka_unit_test(a_rolling_launcher_moves_as_one),
         cmocka_unit_test(all_at_once_are_each_to_the_first_order),
         cmocka_unit_test(what_there_is_not_is_told),
         cmocka_unit_test(who_watches_may_stop_it),
