@@ -39,6 +39,36 @@ static void test_threads(void **state)
     ld_study_free(study);
 }
 
+// Ranges that run elsewhere, whose parts come twice.
+static void test_parts_come_twice(void **state)
+{
+    (void)state;
+    ld_study *study = study_of(launch);
+    ld_study_options options = {.threads = 2};
+    ld_study_keeper *keeper;
+    ld_study_range range;
+    ld_study_counts counts;
+    ld_error error;
+    assert_int_equal(ld_study_keeper_open(study, in("twice"), &keeper, &error), LD_OK);
+    while (ld_study_keeper_next(keeper, &range)) {
+        void *part;
+        size_t size;
+        assert_int_equal(ld_study_run_range(study, &range, &options, &part, &size, &error), LD_OK);
+        for (int i = 0; i < 2; i++)
+            assert_int_equal(ld_study_keeper_put(keeper, part, size, &error), LD_OK);
+        ld_free(part);
+    }
+    ld_study_keeper_counts(keeper, &counts);
+    assert_int_equal(counts.done, 24);
+    assert_int_equal(ld_study_keeper_close(keeper, &error), LD_OK);
+    study_run(study, "once", 1);
+    char *once = study_table("once"), *twice = study_table("twice");
+    assert_string_equal(once, twice);
+    free(once);
+    free(twice);
+    ld_study_free(study);
+}
+
 static bool three_more(void *self)
 {
     return atomic_load((atomic_int *)self) < 3;
@@ -520,6 +550,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_parts_come_twice),
         cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_removed),
         cmocka_unit_test(test_shards),
