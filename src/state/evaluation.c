@@ -89,7 +89,7 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     input->load = disturbed ? &disturbed->input.launching : NULL;
     input->record = NULL;
     input->about.at = NULL;
-    input->jet_face.hit = input->deflector.hit = 0;
+    input->jet_face = input->deflector = (guide_push){0};
     if (self->jets.count || model_tubes(self->model)->deflector.present)
         find_jet(self, t, y, input);
     if (self->air && self->phase.rocket)
