@@ -90,7 +90,10 @@ void simulation_surround(const launch_state *self, double t, const double *y,
     input->record = NULL;
     input->about.at = NULL;
     input->jet_face = input->deflector = (guide_push){0};
-    if (self->jets.count || model_tubes(self->model)->deflector.present)
+    bool blows = self->phase.rocket
+                     ? input->thrust > 0 && model_tubes(self->model)->deflector.present
+                     : self->jets.count > 0;
+    if (blows)
         find_jet(self, t, y, input);
     if (self->air && self->phase.rocket)
         find_air(self, t, y, input);
